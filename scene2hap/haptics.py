@@ -146,7 +146,7 @@ class ObjectHaptics:
         if self.feet is not None and not isinstance(self.feet, Material):
             raise ConfigError(f"feet is {checks.represented(self.feet)}; it must be a Material or None.")
         if self.mass_kg is not None:
-            object.__setattr__(self, "mass_kg", checked_mass_kg("mass_kg", self.mass_kg, ConfigError))
+            object.__setattr__(self, "mass_kg", checked_mass_kg(self.mass_kg, ConfigError))
         confidence = checks.number("confidence", self.confidence, "-", at_least=0.0, at_most=1.0, error=ConfigError)
         object.__setattr__(self, "confidence", confidence)
         wanted = "a list, as [SourceState('on', 0.5, 'fan humming', 'fan humming')]"
@@ -161,9 +161,9 @@ LEAST_MASS_KG, MOST_MASS_KG = 1e-6, 1e7
 """Bounds on a mass: a grain of sand, and a loaded train."""
 
 
-def checked_mass_kg(name: str, value: object, error: type[Scene2HapError]) -> float:
+def checked_mass_kg(mass_kg: object, error: type[Scene2HapError]) -> float:
     """Check the mass of an object, and return it [kg]. Raises: error: it is out of bounds."""
-    return checks.number(name, value, "kg", at_least=LEAST_MASS_KG, at_most=MOST_MASS_KG, error=error)
+    return checks.number("mass_kg", mass_kg, "kg", at_least=LEAST_MASS_KG, at_most=MOST_MASS_KG, error=error)
 
 
 @clear_construction

@@ -20,19 +20,17 @@ _TABLE = "border-collapse:collapse;margin:0.3em 0"
 _CELL = "text-align:left;padding:0.15em 0.6em;border-bottom:1px solid rgba(128,128,128,0.4)"
 
 
-def html_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]], n_rows: int, note: str = "") -> str:
+def html_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]], n_rows: int) -> str:
     """Return a table with a title, at most `MOST_ROWS` of its `n_rows` rows, and the number of rows left out.
 
-    Parameters: columns : headings with units; rows : texts of the cells, read only as far as they are shown;
-    note : a sentence below the table.
+    Parameters: columns : headings with units; rows : texts of the cells, read only as far as they are shown.
     """
     head = "".join(f'<th style="{_CELL}">{_text(name)}</th>' for name in columns)
     body = "".join(
         "<tr>" + "".join(f'<td style="{_CELL}">{_text(cell)}</td>' for cell in row) + "</tr>"
         for row in islice(rows, MOST_ROWS)
     )
-    more = f"and {n_rows - MOST_ROWS} more" if n_rows > MOST_ROWS else ""
-    below = "".join(f"<div>{_text(line)}</div>" for line in (more, note) if line)
+    below = f"<div>and {n_rows - MOST_ROWS} more</div>" if n_rows > MOST_ROWS else ""
     table = f'<table style="{_TABLE}"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>' if n_rows else ""
     return f"<div><div><strong>{_text(title)}</strong></div>{table}{below}</div>"
 

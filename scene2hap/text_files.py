@@ -52,9 +52,9 @@ def opened_regular(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
         yield file
 
 
-def read_small_text(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) -> str:
+def read_small_text(path: str | os.PathLike[str]) -> str:
     """Read a regular file as UTF-8 text, with or without a byte-order mark. Raises: OSError, ValueError."""
-    return read_small(path, max_bytes).decode("utf-8-sig")
+    return read_small(path).decode("utf-8-sig")
 
 
 def draft_path(path: Path) -> Path:

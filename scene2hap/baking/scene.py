@@ -84,7 +84,7 @@ def bake(
         overrides=overrides,
         earlier=earlier,
     )
-    return run_waiting(baking, "abake")
+    return run_waiting(baking, "abake(...)")
 
 
 @clear_call
@@ -119,13 +119,15 @@ async def with_sounds(
     earlier: HapticBundle | None = None,
 ) -> HapticBundle:
     """Make the sounds of an inferred scene. Returns its bundle, as `bake` after inference. Raises: AudioError."""
-    locked = {} if earlier is None else {key: earlier.loops[key] for key in earlier.loops if _is_locked(key, wishes)}
+    before = Earlier()
+    if earlier is not None:
+        locked = {key: loops for key, loops in earlier.loops.items() if key in wishes and wishes[key].locked}
+        before = Earlier(locked, earlier.choices)
     kept = {
-        key: _with_vibration(haptics, earlier.objects[key]) if earlier is not None and key in locked else haptics
+        key: _with_vibration(haptics, earlier.objects[key]) if earlier is not None and key in before.loops else haptics
         for key, haptics in inferred.items()
     }
     objects = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in kept.items()}
-    before = Earlier(locked, earlier.choices if earlier is not None else {})
     sounds = await make_loops(objects, wishes, config, progress or _say_nothing, before, kept)
     objects = _as_recorded(objects, sounds.loops, {}, wishes)
     _warn_of(scene, objects)
@@ -196,7 +198,7 @@ def rebake(
             on_report=on_report,
             on_remade=on_remade,
         ),
-        "arebake",
+        "arebake(...)",
     )
 
 
@@ -403,12 +405,7 @@ def _why_named(name: str | None) -> str | None:
 
 def with_locked(folder: Path, overrides: Mapping[str, Override]) -> HapticBundle | None:
     """Return the bundle in a folder if a person has locked loops in it, None otherwise. Raises: BundleError."""
-    return HapticBundle.load(folder) if any(_is_locked(key, overrides) for key in overrides) else None
-
-
-def _is_locked(object_id: str, overrides: Mapping[str, Override]) -> bool:
-    wish = overrides.get(object_id)
-    return wish is not None and wish.locked
+    return HapticBundle.load(folder) if any(wish.locked for wish in overrides.values()) else None
 
 
 def _with_vibration(before: ObjectHaptics, asked: ObjectHaptics) -> ObjectHaptics:

@@ -201,7 +201,7 @@ class _Chooser:
                 return _Part(object_id, state, group, repeated, request, before, runs=runs_of(before)), why
             if self._holds(before.fingerprint, request):
                 clip = before.source or _prepared(_repeated(before.audible))  # None if the file was removed
-                request = _with_sources_of(before, request)
+                request = {**request, "sources": before.fingerprint.get("sources", "")}
                 return _Part(object_id, state, group, clip, request, before, runs=runs_of(before)), why
         if description not in self._chosen:
             choice = self._choose(object_id, description)
@@ -295,10 +295,6 @@ def _pitch_hz(object_id: str, state: str, wishes: Mapping[str, Override], config
         )
         warn_of(f"{limits}. The loop is at {played_hz:g} Hz.", BundleWarning)
     return played_hz
-
-
-def _with_sources_of(before: HapticLoop, request: Mapping[str, str]) -> dict[str, str]:
-    return {**request, "sources": before.fingerprint.get("sources", "")}
 
 
 def _own(clip: AudioClip) -> tuple[AudioClip, Runs]:

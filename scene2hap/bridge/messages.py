@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
@@ -187,27 +187,12 @@ class Leave(Request):
     type: Literal["leave"]
 
 
-MODELS: dict[str, type[Request]] = {
-    "hello": Hello,
-    "bake": Bake,
-    "cancel": Cancel,
-    "follow": Follow,
-    "play": Play,
-    "resume": Resume,
-    "watch": Watch,
-    "moving": Moving,
-    "set_source": SetSource,
-    "set_user": SetUser,
-    "strike": StrikeObject,
-    "add": Add,
-    "spawn": Spawn,
-    "remove": Remove,
-    "pause": Pause,
-    "unpause": Unpause,
-    "explain": Explain,
-    "stats": Stats,
-    "leave": Leave,
-}
+_REQUESTS: tuple[type[Request], ...] = (
+    *(Hello, Bake, Cancel, Follow, Play, Resume, Watch, Moving, SetSource, SetUser, StrikeObject, Add, Spawn, Remove),
+    *(Pause, Unpause, Explain, Stats, Leave),
+)
+MODELS: dict[str, type[Request]] = {get_args(model.model_fields["type"].annotation)[0]: model for model in _REQUESTS}
+"""The requests by their type."""
 _document: TypeAdapter[Document] = TypeAdapter(Document)
 
 

@@ -28,7 +28,7 @@ from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.folder_swap import exchange
 from scene2hap.bundle.foreign_files import carry_over, discard
 from scene2hap.bundle.manifest import MANIFEST, our_files
-from scene2hap.errors import BundleChanged, BundleError, BundleIncomplete, reason_of
+from scene2hap.errors import BundleChanged, BundleError, BundleIncomplete, reason_of, unwritable
 from scene2hap.file_stamp import Stamp, file_stamp
 from scene2hap.scene.scene_warning import warn_of
 
@@ -46,15 +46,20 @@ _MARK = ".scene2hap-"
 def require_replaceable(target: Path) -> None:
     """Check that a target can be replaced: it does not exist, is an empty folder, or is a readable bundle.
 
-    Raises: BundleVersionError: a bundle of a newer scene2hap; BundleError: any other content, the folder above cannot
-    be written, or the target is or contains the working folder of this process, which would be moved away.
+    Raises: BundleVersionError: a bundle of a newer scene2hap; BundleError: any other content, too long a name, the
+    folder above cannot be written, or the target is or contains the working folder of this process, which a bundle
+    would move away.
     """
     place = _resolved(target)
     above = next(folder for folder in place.parents if folder.exists())
     if not above.is_dir() or not os.access(above, os.W_OK | os.X_OK):
         raise BundleError(f"{target} cannot be written: {above} is no folder of yours. Choose another place.")
-    if not os.path.lexists(place):
+    try:
+        place.lstat()
+    except FileNotFoundError:
         return
+    except OSError as cause:  # its name is too long
+        raise BundleError(unwritable(target, cause)) from cause
     if not place.is_dir():
         raise BundleError(f"{target} is not a folder; choose another name.")
     here = _working_folder()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
@@ -27,15 +27,21 @@ ANY_STATE = "*"
 MAKES_LOOPS = frozenset({"name", "vibrates", "clip", "keep", "intensity", "pitch_hz"})
 """Fields that decide how loops are made. They cannot change while an object is locked."""
 
-PASSAGES = ("start_up_s", "wind_down_s")
-BY_STATE = ("intensity", "pitch_hz", *PASSAGES)
-"""Fields with a number for each state."""
+_OF_STATES = ("intensity", "start_up_s", "wind_down_s")
+"""Fields with a number for each state that replace a field of `SourceState`."""
 
 _MOST_GAIN_DB = 60.0
 _LONGEST_NAME = 200
 """Most characters of a name (assumed: three times the longest name that a designer gives; a model reads it)."""
-_PITCH_HZ = (10.0, 1000.0)
-"""Frequencies that hands feel as a pitch; also the band of an actuator without a profile."""
+_BOUNDS: Mapping[str, Mapping[str, Any]] = {
+    "intensity": {"unit": "-", "above": 0.0, "at_most": 1.0},
+    # Frequencies that hands feel as a pitch; also the band of an actuator without a profile.
+    "pitch_hz": {"unit": "Hz", "at_least": 10.0, "at_most": 1000.0},
+    "start_up_s": {"unit": "s", "at_least": 0.0, "at_most": LONGEST_PASSAGE_S},
+    "wind_down_s": {"unit": "s", "at_least": 0.0, "at_most": LONGEST_PASSAGE_S},
+}
+BY_STATE = tuple(_BOUNDS)
+"""Fields with a number for each state."""
 
 
 @clear_construction
@@ -81,10 +87,8 @@ class Override:
             raise BundleError(f"vibrates is {checks.represented(self.vibrates)}; it must be True, False or None.")
         for name in ("keep", "locked", "muted"):
             checks.flag(name, getattr(self, name), error=BundleError)
-        object.__setattr__(self, "intensity", _by_state(self.intensity, _intensity, "intensity"))
-        object.__setattr__(self, "pitch_hz", _by_state(self.pitch_hz, _pitch_hz, "pitch_hz"))
-        for name in PASSAGES:
-            object.__setattr__(self, name, _by_state(getattr(self, name), _passage_s, name))
+        for name in _BOUNDS:
+            object.__setattr__(self, name, _by_state(name, getattr(self, name)))
         for name in ("state", "name"):
             if getattr(self, name) is not None:
                 checks.text(name, getattr(self, name), error=BundleError)
@@ -97,7 +101,7 @@ class Override:
             gain = checks.number("gain_db", self.gain_db, "dB", at_most=_MOST_GAIN_DB, error=BundleError)
             object.__setattr__(self, "gain_db", gain)
         if self.mass_kg is not None:
-            object.__setattr__(self, "mass_kg", checked_mass_kg("mass_kg", self.mass_kg, BundleError))
+            object.__setattr__(self, "mass_kg", checked_mass_kg(self.mass_kg, BundleError))
         for name in ("material", "feet"):
             given = getattr(self, name)
             if isinstance(given, str):
@@ -153,49 +157,29 @@ class Override:
             haptics = replace(haptics, vibrates=False, states=())
         elif self.vibrates and haptics.states:
             provenance["vibrates"] = USER
-        if self.intensity and haptics.states:
-            provenance["intensity"] = USER
-            haptics = replace(haptics, states=tuple(map(self._as_strong, haptics.states)))
-        for name in PASSAGES:
+        for name in _OF_STATES:
             if getattr(self, name) and haptics.states:
                 provenance[name] = USER
-                haptics = replace(haptics, states=tuple(self._timed(state, name) for state in haptics.states))
+                haptics = replace(haptics, states=tuple(self._corrected(state, name) for state in haptics.states))
         if self.state is not None:
             haptics = replace(haptics, states=tuple(sorted(haptics.states, key=lambda one: one.name != self.state)))
         return replace(haptics, provenance=provenance)
 
-    def _as_strong(self, state: SourceState) -> SourceState:
-        strength = self.intensity.get(state.name, self.intensity.get(ANY_STATE))
-        return state if strength is None else replace(state, intensity=strength)
-
-    def _timed(self, state: SourceState, name: str) -> SourceState:
-        times: Mapping[str, float] = getattr(self, name)
-        changes: dict[str, Any] = {name: times.get(state.name, times.get(ANY_STATE))}
+    def _corrected(self, state: SourceState, name: str) -> SourceState:
+        given: Mapping[str, float] = getattr(self, name)
+        changes: dict[str, Any] = {name: given.get(state.name, given.get(ANY_STATE))}
         return state if changes[name] is None else replace(state, **changes)
 
 
-def _by_state(value: object, bounded: Callable[[str, object], float], name: str) -> dict[str, float]:
+def _by_state(name: str, value: object) -> dict[str, float]:
     """Return numbers by state, `ANY_STATE` for one number. Raises: BundleError: another type, or out of bounds."""
     given = value if isinstance(value, Mapping) else {ANY_STATE: value}
     return {
-        checks.text(f"state of {name}", state, error=BundleError): bounded(
-            name if state == ANY_STATE else f"{name}[{state!r}]", number
+        checks.text(f"state of {name}", state, error=BundleError): checks.number(
+            name if state == ANY_STATE else f"{name}[{state!r}]", number, error=BundleError, **_BOUNDS[name]
         )
         for state, number in given.items()
     }
-
-
-def _intensity(name: str, value: object) -> float:
-    return checks.number(name, value, "-", above=0.0, at_most=1.0, error=BundleError)
-
-
-def _pitch_hz(name: str, value: object) -> float:
-    low_hz, high_hz = _PITCH_HZ
-    return checks.number(name, value, "Hz", at_least=low_hz, at_most=high_hz, error=BundleError)
-
-
-def _passage_s(name: str, value: object) -> float:
-    return checks.number(name, value, "s", at_least=0.0, at_most=LONGEST_PASSAGE_S, error=BundleError)
 
 
 def _on_top(earlier: Mapping[str, float], later: Mapping[str, float]) -> Mapping[str, float]:

@@ -131,7 +131,10 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         )
     kept = kept_before(str(target)) if before is not None and _is_other(before, bundle) else None
     folder = bundle.save(target) if before is None or kept is None else write_both(bundle, target, before, kept)
-    write_account(folder, {**accounts[0].as_json(), "cost_usd": accounts[0].cost_usd(price_list(config.prices))})
+    try:
+        write_account(folder, {**accounts[0].as_json(), "cost_usd": accounts[0].cost_usd(price_list(config.prices))})
+    except BundleError as problem:  # the bundle is whole without its account
+        console.warn(str(problem))
     show_bundle(console, bundle)
     show_report(console, accounts[0], config.prices)
     console.say(f"wrote {folder}")

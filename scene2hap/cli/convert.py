@@ -19,6 +19,7 @@ from scene2hap.audio.conversion import FORMATS, Conversion, Failure, convert_fil
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.cli.console import Console
 from scene2hap.cli.shared_options import given_spec
+from scene2hap.counted import counted
 from scene2hap.errors import AudioError, ConfigError
 
 HELP = "convert sound files into vibration"
@@ -103,7 +104,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 def _show(console: Console, made: list[Conversion]) -> None:
     total = sum(one.duration_s for one in made)
     console.table(
-        f"{len(made)} file{'' if len(made) == 1 else 's'}, {total:.1f} s of sound",
+        f"{counted(len(made), 'file')}, {total:.1f} s of sound",
         (
             *("file", ">duration s", ">peak before dB", ">peak after dB", ">felt dB"),
             *(">strongest before Hz", ">strongest after Hz", ">times real time"),

@@ -21,21 +21,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import __version__, checks
-from scene2hap.audio.sources import SOURCES
-from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.cli.console import Console
+from scene2hap.cli.list import GROUPS
 from scene2hap.cli.shared_options import given_spec
 from scene2hap.compiled import are_in_use
 from scene2hap.devices import SINKS, loopback_latency
 from scene2hap.devices.clocked_sink import has_clock
 from scene2hap.devices.protocol import ActuatorSink, Block, SinkEvent, SinkFormat
 from scene2hap.errors import ConfigError, DeviceError, MissingExtra
-from scene2hap.export import EXPORTS
 from scene2hap.haptics import ActuatorProfile
-from scene2hap.llm import BACKENDS
-from scene2hap.propagation import MODELS
 from scene2hap.render.safety import SafetyLayer
-from scene2hap.scene.capture import RENDERERS
 from scene2hap.session.mix.output import LONGEST_FADE_OUT_S
 
 HELP = "show what this machine can do and what is missing, or play a test sweep"
@@ -127,8 +122,7 @@ def extras() -> list[dict[str, str]]:
 
 def guests() -> list[dict[str, str]]:
     """Return each plug-in of other packages: group, kind, package, and the error if it cannot be loaded."""
-    groups = (BACKENDS, SOURCES, CONVERTERS, MODELS, SINKS, RENDERERS, EXPORTS)
-    return [asdict(guest) for group in groups for guest in group.guests()]
+    return [asdict(guest) for group in GROUPS.values() for guest in group.guests()]
 
 
 def sound_cards() -> dict[str, Any]:

@@ -123,9 +123,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     mass.add_argument("mass_kg", metavar="KG", type=float)
     feet = verb("feet", "set the material of an object's feet", _overridden)
     feet.add_argument("feet", metavar="NAME", help="a name in the table, such as rubber or felt")
-    sound = verb("sound", "make the vibration of an object from your own sound, in every state", _with_sound)
+    sound = verb("sound", "make the vibration of an object from your own sound, in every state", _remade)
     sound.add_argument(
-        "file",
+        "clip",
         metavar="FILE",
         help="a sound (WAV, FLAC, ...), or a haptic clip (.haptic, .ahap), which is played unchanged",
     )
@@ -227,7 +227,7 @@ _IN_WORDS = {"plan": "its place among the sources"}
 
 def _watch(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Repeat the edit whenever the sound is saved. Reports a broken file, and waits for the next save."""
-    path = Path(arguments.file)
+    path = Path(arguments.clip)
     seen = file_stamp(path)  # before the first edit, so that a save during it is noticed
     outcome = _edit(arguments, console)
     with interrupted() as is_interrupted:
@@ -268,10 +268,6 @@ def _overridden(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
 
 def _remade(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
     return remaking.rebake(_overridden(bundle, remaking))
-
-
-def _with_sound(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
-    return remaking.rebake(bundle.override(remaking.arguments.id, clip=remaking.arguments.file))
 
 
 def _corrected(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:

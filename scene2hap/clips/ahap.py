@@ -14,22 +14,14 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from scene2hap.clips.fields import Fields, read_fields, rising_times
-from scene2hap.clips.haptic_clip import (
-    MAX_CLIP_S,
-    MAX_POINTS,
-    RANGE_HZ,
-    About,
-    Curve,
-    HapticClip,
-    Transient,
-    Values,
-)
+from scene2hap.clips.haptic_clip import MAX_CLIP_S, MAX_POINTS, About, ClipWarning, Curve, HapticClip, Transient, Values
 from scene2hap.errors import ClipError
 from scene2hap.scene.scene_warning import warn_of
 
@@ -41,7 +33,6 @@ MAX_CURVE_POINTS = 16
 TRANSIENT_DIP = 0.8
 
 _INTENSITY, _SHARPNESS = "HapticIntensity", "HapticSharpness"
-_CONTROLS = (f"{_INTENSITY}Control", f"{_SHARPNESS}Control")
 _MOST_EVENTS = 200
 """Most continuous events of one file (assumed: ten times as many as a clip of ten minutes needs)."""
 _DECIMALS = 9
@@ -50,10 +41,7 @@ _AFTER_S = 0.05
 """Time that a clip continues after its last transient [s]: the length of a transient's pulse."""
 
 Points = list[tuple[float, float]]
-
-
-class ClipWarning(UserWarning):
-    """A part of a haptic clip's file is not played."""
+_time_of = itemgetter(0)
 
 
 @dataclass(frozen=True)
@@ -68,24 +56,20 @@ class _Event:
 
 @dataclass
 class _Control:
-    """The points of all curves of one kind. Times are from the file's beginning."""
+    """The points of all curves of one kind, in order of time, and the value before them.
+
+    Times are from the file's beginning.
+    """
 
     neutral: float
-    times_s: list[float] = field(default_factory=list)
-    values: list[float] = field(default_factory=list)
-
-    def set(self, points: Points) -> None:
-        """Set the points of all curves, in any order."""
-        points = sorted(points, key=lambda point: point[0])
-        self.times_s, self.values = [time for time, _ in points], [value for _, value in points]
+    points: Points = field(default_factory=list)
 
     def at(self, time_s: float, *, before: bool = False) -> float:
         """Return the value at a time, or just `before` it. Before the first curve it is the neutral value."""
-        after = bisect_left(self.times_s, time_s) if before else bisect_right(self.times_s, time_s)
+        after = (bisect_left if before else bisect_right)(self.points, time_s, key=_time_of)
         if after == 0:
             return self.neutral
-        right = min(after, len(self.times_s) - 1)
-        t0, t1, v0, v1 = self.times_s[after - 1], self.times_s[right], self.values[after - 1], self.values[right]
+        (t0, v0), (t1, v1) = self.points[after - 1], self.points[min(after, len(self.points) - 1)]
         return v1 if time_s >= t1 else v0 + (v1 - v0) * (time_s - t0) / (t1 - t0)
 
 
@@ -97,11 +81,10 @@ class _Pattern:
     transients: list[Transient] = field(default_factory=list)
     intensity: _Control = field(default_factory=lambda: _Control(1.0))
     sharpness: _Control = field(default_factory=lambda: _Control(0.0))
-    points: dict[str, Points] = field(default_factory=dict)
     ignored: set[str] = field(default_factory=set)
 
 
-def read_ahap(path: Path, *, range_hz: tuple[float, float] = RANGE_HZ) -> HapticClip:
+def read_ahap(path: Path) -> HapticClip:
     """Return the clip in an AHAP file. If a pair of files holds continuous events and transients separately, both are
     read.
 
@@ -121,7 +104,7 @@ def read_ahap(path: Path, *, range_hz: tuple[float, float] = RANGE_HZ) -> Haptic
         raise ClipError(f"{path}: Pattern has no haptic event; it must have at least one.")
     dips = {one.time_s for one in transients} if len(parts) > 1 else set()
     amplitude = _amplitude(main, dips, transients)
-    return HapticClip(amplitude, _frequency(main), transients, range_hz, About(editor=""))
+    return HapticClip(amplitude, _frequency(main), transients, about=About(editor=""))
 
 
 def compose_ahap(clip: HapticClip) -> dict[str, dict[str, Any]]:
@@ -204,8 +187,8 @@ def _pattern(fields: Fields) -> _Pattern:
         number = len(pattern.continuous)
         problem = f"has {number} continuous events; it must have at most {_MOST_EVENTS}. Split the clip"
         raise fields.error("Pattern", problem)
-    for control, name in zip((pattern.intensity, pattern.sharpness), _CONTROLS, strict=True):
-        control.set(pattern.points.get(name, []))
+    for control in (pattern.intensity, pattern.sharpness):
+        control.points.sort(key=_time_of)  # a file may have its curves in any order
     return pattern
 
 
@@ -235,8 +218,10 @@ def _read_curve(curve: Fields, pattern: _Pattern) -> None:
 
 
 def _add(pattern: _Pattern, control: str, points: Points) -> None:
-    if control in _CONTROLS:
-        pattern.points.setdefault(control, []).extend(points)
+    if control == f"{_INTENSITY}Control":
+        pattern.intensity.points += points
+    elif control == f"{_SHARPNESS}Control":
+        pattern.sharpness.points += points
     else:
         pattern.ignored.add(f"the parameter {control!r}")
 
@@ -285,7 +270,7 @@ def _amplitude(pattern: _Pattern, dips: set[float], transients: tuple[Transient,
     if not edges:
         return Curve(np.array([0.0, last + _AFTER_S]), np.zeros(2), 2.0)
     start, end = min(edges), max(edges)
-    bends = {time for time in pattern.intensity.times_s if start <= time <= end}
+    bends = {time for time, _ in pattern.intensity.points if start <= time <= end}
     points: Points = []
     for time in sorted(edges | bends):
         earlier, later = level(time, before=True), level(time, before=False)
@@ -311,7 +296,7 @@ def _frequency(pattern: _Pattern) -> Curve | None:
         return _unit(own + pattern.sharpness.at(time_s, before=before))
 
     start, end = min(one.start_s for one in pattern.continuous), max(one.end_s for one in pattern.continuous)
-    bends = {min(time, end) for time in pattern.sharpness.times_s if start <= time}
+    bends = {min(time, end) for time, _ in pattern.sharpness.points if start <= time}
     points: Points = []
     for time in sorted(bends | {one.start_s for one in pattern.continuous}):
         # Nothing is felt in a pause, so the frequency stays constant and jumps where the next event begins.

@@ -22,6 +22,10 @@ MAX_CLIP_S = 600.0
 """Longest clip [s]; the same bound as for sounds."""
 
 
+class ClipWarning(UserWarning):
+    """A part of a haptic clip's file is not played."""
+
+
 @clear_construction
 @dataclass(frozen=True, eq=False)
 class Curve:

@@ -2,7 +2,7 @@
 
 A clip has at least two amplitude points and ends with the last one. A point may have an emphasis: a transient whose
 amplitude is at least that of the point. Frequency points are within the span of the amplitude points. Files of an
-earlier program break only this rule, which `legacy` allows.
+earlier program break only this rule; they are read with a warning.
 """
 
 from __future__ import annotations
@@ -13,20 +13,18 @@ from typing import Any
 import numpy as np
 
 from scene2hap.clips.fields import Fields, read_fields, rising_times
-from scene2hap.clips.haptic_clip import MAX_POINTS, RANGE_HZ, About, Curve, HapticClip, Transient
-from scene2hap.errors import ClipError
+from scene2hap.clips.haptic_clip import MAX_POINTS, About, ClipWarning, Curve, HapticClip, Transient
+from scene2hap.scene.scene_warning import warn_of
 
 SUFFIX = ".haptic"
 _VERSION = 1
-_SPAN_RULE = "lies outside of the amplitude curve"
 
 
-def read_haptic(path: Path, *, legacy: bool = False, range_hz: tuple[float, float] = RANGE_HZ) -> HapticClip:
+def read_haptic(path: Path) -> HapticClip:
     """Return the clip in a .haptic file.
 
-    Parameters: legacy : accept frequency points outside of the amplitude curve, as in files of earlier programs;
-        range_hz : frequencies at 0 and 1 on the actuator [Hz].
     Raises: ClipError: the file breaks a rule; the message names file, field and bound.
+    Warns: ClipWarning: frequency points lie outside of the amplitude curve, as in files of earlier programs.
     """
     fields = read_fields(path, needed="signals", kind=".haptic")
     version = fields.within("version").number("major", at_most=1e6)
@@ -45,24 +43,18 @@ def read_haptic(path: Path, *, legacy: bool = False, range_hz: tuple[float, floa
         for row, time, level in zip(rows, times, amplitude, strict=True)
         if "emphasis" in row
     )
+    about = _about(fields)
     frequency = None
     if "frequency" in envelopes and (points := envelopes.items("frequency", MAX_POINTS)):
         bends = rising_times(points, "time")
         frequency = Curve(np.array(bends), np.array([point.number("frequency") for point in points]))
         outside = [(at, point) for at, point in zip(bends, points, strict=True) if not times[0] <= at <= times[-1]]
-        if outside and not legacy:
+        if outside:
             at, point = outside[0]
-            raise point.error(
-                "time",
-                f"is {at:g} s, which {_SPAN_RULE}, {times[0]:g} to {times[-1]:g} s. Read it with legacy=True, or "
-                "export it with a newer program",
-            )
-    return HapticClip(Curve(np.array(times), np.array(amplitude)), frequency, transients, range_hz, _about(fields))
-
-
-def breaks_span_rule(error: ClipError) -> bool:
-    """Return True if a file was refused for the rule that `legacy` drops."""
-    return _SPAN_RULE in str(error)
+            span = f"lies outside of the amplitude curve, {times[0]:g} to {times[-1]:g} s"
+            wrong = point.error("time", f"is {at:g} s, which {span}. The clip is read without what lies outside")
+            warn_of(str(wrong), ClipWarning)
+    return HapticClip(Curve(np.array(times), np.array(amplitude)), frequency, transients, about=about)
 
 
 def compose_haptic(clip: HapticClip) -> dict[str, Any]:

@@ -11,12 +11,11 @@ from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.files import read_clip
 from scene2hap.clips import ahap, haptic_format
-from scene2hap.clips.ahap import ClipWarning, read_ahap
+from scene2hap.clips.ahap import read_ahap
 from scene2hap.clips.haptic_clip import HapticClip
-from scene2hap.clips.haptic_format import breaks_span_rule, read_haptic
+from scene2hap.clips.haptic_format import read_haptic
 from scene2hap.clips.synthesis import RATE_HZ, synthesize
 from scene2hap.errors import ClipError
-from scene2hap.scene.scene_warning import warn_of
 
 SUFFIXES = (haptic_format.SUFFIX, ahap.SUFFIX)
 """Suffixes of haptic clips; files with other suffixes are read as sounds."""
@@ -38,16 +37,9 @@ def read_haptic_clip(path: str | os.PathLike[str]) -> HapticClip:
     suffix = path.suffix.lower()
     if suffix == ahap.SUFFIX:
         return read_ahap(path)
-    if suffix != haptic_format.SUFFIX:
-        raise ClipError(f"{path}: a haptic clip is a file with the suffix {' or '.join(SUFFIXES)}.")
-    try:
+    if suffix == haptic_format.SUFFIX:
         return read_haptic(path)
-    except ClipError as error:
-        if not breaks_span_rule(error):
-            raise
-        clip = read_haptic(path, legacy=True)
-        warn_of(f"{error} It is read without what lies outside.", ClipWarning)
-        return clip
+    raise ClipError(f"{path}: a haptic clip is a file with the suffix {' or '.join(SUFFIXES)}.")
 
 
 def read_any_clip(path: str | os.PathLike[str]) -> AudioClip:

@@ -132,7 +132,7 @@ def infer_haptics(
     """
     built = cast("LLMBackend", BACKENDS.build(backend))  # `infer_scene` checks it
     running = infer_scene(given_scene(scene), built, user_prompt=user_prompt, config=config)
-    return run_waiting(running, "infer_scene").objects
+    return run_waiting(running, "infer_scene(...)").objects
 
 
 @dataclass(frozen=True)

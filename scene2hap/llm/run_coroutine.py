@@ -12,7 +12,7 @@ Result = TypeVar("Result")
 
 
 def run_waiting(awaited: Coroutine[Any, Any, Result], instead: str) -> Result:
-    """Run a coroutine and return its result. `instead` is the function that the error recommends to await.
+    """Run a coroutine and return its result. `instead` is the call that the error recommends to await.
 
     Raises: CallError: an event loop runs in this thread, as in a notebook, and would be blocked.
     """
@@ -22,5 +22,5 @@ def run_waiting(awaited: Coroutine[Any, Any, Result], instead: str) -> Result:
         return asyncio.run(awaited)
     awaited.close()
     raise CallError(
-        f"an event loop is running (asyncio, or a notebook), and this call would stop it. Write `await {instead}(...)`."
+        f"an event loop is running (asyncio, or a notebook), and this call would stop it. Write `await {instead}`."
     )

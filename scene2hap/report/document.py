@@ -8,17 +8,21 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import __version__
+from scene2hap import __version__, checks
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle, Override
+from scene2hap.bundle.account import read_account
+from scene2hap.bundle.arguments import given_bundle
+from scene2hap.calls import clear_call
 from scene2hap.counted import first_of
-from scene2hap.errors import UnknownMaterial
+from scene2hap.errors import ConfigError, UnknownMaterial
 from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
 from scene2hap.materials import Material, lookup
 from scene2hap.propagation.exponential_plate import ExponentialPlate
@@ -46,20 +50,32 @@ _CONSTANTS = (
 )
 
 
-def document(
-    bundle: HapticBundle,
+@clear_call
+def report_document(
+    bundle: HapticBundle | str | os.PathLike[str],
     *,
     models: Sequence[Any] = MODELS,
     pictures: SceneSnapshot | None = None,
     most_points: int = MOST_POINTS,
     account: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
-    """Return all visible and audible content of a bundle.
+    """Return all visible and audible content of a bundle as JSON values; docs/report.md has the fields.
 
-    Parameters: models : kinds or settings of the propagation models of the felt map; pictures : the scene from
-    `capture_images`, for images and colours; most_points : of the felt map; account : the inference report of the bake,
-    as `InferenceReport.as_json` returns it. Raises: as `felt_map` and `account_table`.
+    Parameters:
+    bundle : a HapticBundle, or the path of its folder.
+    models : kinds or settings of the propagation models of the felt map. Models that resonate take milliseconds for
+        each point.
+    pictures : the baked scene with `capture_images`, for pictures and colours, which a bundle does not store.
+    most_points : most surface points of the felt map.
+    account : calls, tokens, cost and skipped questions of the bake, as `InferenceReport.as_json` returns them. The
+        default is the file that `scene2hap bake` wrote beside the bundle, if `bundle` is the path of its folder.
+    Raises: ConfigError: no such model, or a malformed account; ModelDomainError: a model does not hold in this scene.
+    BundleError: the bundle or its account cannot be read.
     """
+    most_points = checks.whole("most_points", most_points, "-", at_least=1, at_most=200_000, error=ConfigError)
+    if account is None and isinstance(bundle, str | os.PathLike):
+        account = read_account(bundle)
+    bundle = given_bundle(bundle)
     scene = bundle.snapshot
     meshes: dict[str, int] = {}
     whole = shells(scene)

@@ -23,6 +23,8 @@ MODELS: tuple[str, ...] = ("exponential_plate",)
 """The default model of a session. Models that resonate take milliseconds a point, so they are drawn on request."""
 BAND_EDGES_HZ = (10.0, 40.0, 125.0, 400.0, 1000.0)
 """Parts of the tactile band that a page offers, besides the whole: pressure, flutter, low and high vibration."""
+_BANDS_HZ = tuple(pairwise(BAND_EDGES_HZ))
+_BAND_NAMES = tuple(f"{low:g}-{high:g} Hz" for low, high in _BANDS_HZ)
 ALL_BANDS = "all"
 ALL_SOURCES = ""
 """Key of the sum of all sources. It is free, since no object has an empty id."""
@@ -81,16 +83,16 @@ def felt_map(
                 ALL_BANDS: _level_db(whole[:, column].max(axis=1, initial=0.0), _felt_db(bundle, source)),
                 **{
                     band: _level_db(parts[:, column, k] * share, _felt_db(bundle, source))
-                    for k, (band, share) in enumerate(zip(_band_names(), shares[source], strict=True))
+                    for k, (band, share) in enumerate(zip(_BAND_NAMES, shares[source], strict=True))
                 },
             }
             for column, source in enumerate(sources)
         }
         levels[name][ALL_SOURCES] = {
             band: _sum_db([levels[name][source][band] for source in sources], len(touches))
-            for band in (ALL_BANDS, *_band_names())
+            for band in (ALL_BANDS, *_BAND_NAMES)
         }
-    return FeltMap(patches, tuple(levels), (ALL_SOURCES, *sources), (ALL_BANDS, *_band_names()), levels, paths)
+    return FeltMap(patches, tuple(levels), (ALL_SOURCES, *sources), (ALL_BANDS, *_BAND_NAMES), levels, paths)
 
 
 def prepared_session(bundle: HapticBundle, model: object, scene_paths: ScenePaths, **config: Any) -> HapticSession:
@@ -123,7 +125,7 @@ def _shares_of(clip: AudioClip) -> NDArray[np.float64]:
     power = np.abs(np.fft.rfft(clip.samples)) ** 2
     hz = np.fft.rfftfreq(len(clip.samples), 1.0 / clip.sample_rate_hz)
     felt = np.where(hz > 0.0, power * 10.0 ** (-threshold_db(np.maximum(hz, 1.0)) / 10.0), 0.0)
-    in_band = np.array([felt[(hz >= low) & (hz < high)].sum() for low, high in _pairs()])
+    in_band = np.array([felt[(hz >= low) & (hz < high)].sum() for low, high in _BANDS_HZ])
     total = in_band.sum()
     return np.sqrt(in_band / total) if total > 0.0 else in_band
 
@@ -143,11 +145,3 @@ def _sum_db(levels: Sequence[NDArray[np.float32]], n_points: int) -> NDArray[np.
             10.0 * np.log10(np.sum([10.0 ** (level.astype(np.float64) / 10.0) for level in levels], axis=0))
         ).astype(np.float32)
     return summed
-
-
-def _band_names() -> tuple[str, ...]:
-    return tuple(f"{low:g}-{high:g} Hz" for low, high in _pairs())
-
-
-def _pairs() -> list[tuple[float, float]]:
-    return list(pairwise(BAND_EDGES_HZ))

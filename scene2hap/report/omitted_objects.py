@@ -20,9 +20,9 @@ def left_out(bundle: HapticBundle, felt: FeltMap, shells: Collection[str]) -> li
     wishes = bundle.overrides
     reached = _reached(felt)
     reasons: Mapping[str, Callable[[str, ObjectHaptics], bool]] = {
-        "not answered: the model's answer failed": lambda _, haptics: _is_error(haptics, "object_category"),
+        "not answered: the model's answer failed": lambda _, haptics: _has_failed(haptics),
         "unknown: it was not recognised, so it is silent": lambda _, haptics: (
-            is_unknown(haptics.object_category) and not haptics.vibrates and not _is_error(haptics, "object_category")
+            is_unknown(haptics.object_category) and not haptics.vibrates and not _has_failed(haptics)
         ),
         "material unknown: no vibration spreads through it": lambda _, haptics: haptics.material is None,
         "vibrates, but has no sound": lambda key, haptics: haptics.vibrates and not bundle.loops.get(key),
@@ -45,8 +45,8 @@ def left_out(bundle: HapticBundle, felt: FeltMap, shells: Collection[str]) -> li
     return [row for row in [{"why": "no properties were inferred for it", "objects": absent}, *rows] if row["objects"]]
 
 
-def _is_error(haptics: ObjectHaptics, field: str) -> bool:
-    return haptics.provenance.get(field, "").startswith("error")
+def _has_failed(haptics: ObjectHaptics) -> bool:
+    return haptics.provenance.get("object_category", "").startswith("error")
 
 
 def _reached(felt: FeltMap) -> dict[str, bool]:

@@ -144,6 +144,14 @@ def test_scenes_that_fail_do_not_stop_the_others(scenes: list[Path], tmp_path: P
     assert (data["baked"], data["failed"]) == (1, 3)
 
 
+def test_error_of_the_report_names_the_errors_of_the_scenes(scenes: list[Path], tmp_path: Path) -> None:
+    (tmp_path / "out" / "report.json").mkdir(parents=True)
+    with pytest.raises(
+        ConfigError, match=r"report\.json cannot be written.* 1 scene baked, 0 kept, 1 failed.*absent\.glb"
+    ):
+        bake_many([tmp_path / "absent.glb", scenes[0]], tmp_path / "out")
+
+
 def test_model_is_queried_from_the_main_process_once_per_question(
     scenes: list[Path], plain: None, tmp_path: Path
 ) -> None:

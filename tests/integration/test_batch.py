@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,7 +16,7 @@ from rooms_of_things import digests, write_scenes
 from scene2hap import bake_many
 from scene2hap.baking.many import BatchReport, batch as batch_module, batch_status, collect_batch, submit_batch
 from scene2hap.cli import main
-from scene2hap.errors import BackendUnavailable, BudgetExceeded, ConfigError
+from scene2hap.errors import BackendUnavailable, BudgetExceeded, CallError, ConfigError
 from scene2hap.llm.batch import folder, service
 
 
@@ -203,6 +204,15 @@ def test_status_queries_the_server_without_download(run: Run, server: BatchServe
     report = batch_status(run.folder, config=run.config)
     assert [(row.status, row.completed) for row in report.batches] == [("completed", 3)]
     assert not any("content" in line for line in server.log)
+
+
+def test_advice_for_a_running_event_loop_works(run: Run, server: BatchServer) -> None:
+    async def status() -> BatchReport:
+        with pytest.raises(CallError, match=r"Write `await asyncio\.to_thread\(batch_status, \.\.\.\)`"):
+            batch_status(run.folder, config=run.config)
+        return await asyncio.to_thread(batch_status, run.folder, config=run.config)
+
+    assert asyncio.run(status()).batches == ()
 
 
 def test_cost_limit_is_checked_before_sending(server: BatchServer, scenes: list[Path], tmp_path: Path) -> None:

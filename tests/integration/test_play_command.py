@@ -15,7 +15,7 @@ from host import terminal_problem
 from scene2hap.cli import main
 from scene2hap.cli.plan import Plan
 from scene2hap.cli.play import Player
-from scenes import table_with_two_phones
+from scenes import box, scene, table_with_two_phones
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs a POSIX terminal")
 
@@ -33,6 +33,18 @@ def test_plan_shows_the_uppermost_objects() -> None:
     lines = plan.lines(frozenset(bundle.loops), (0, 0))
     assert lines[0][0] == "@"
     assert "*" in "".join(lines)
+
+
+def test_plan_shows_small_objects_below_a_ceiling_and_beside_a_wall() -> None:
+    room = scene(
+        box("floor", (6.0, 0.1, 6.0), (0.0, -0.05, 0.0)),
+        box("ceiling", (6.0, 0.1, 6.0), (0.0, 2.5, 0.0)),
+        box("wall", (0.1, 2.4, 6.0), (-2.95, 1.2, 0.0)),
+        box("phone", (0.07, 0.01, 0.15), (-2.85, 0.005, 0.0)),
+        box("mug", (0.08, 0.1, 0.08), (1.0, 0.05, 1.0)),
+    )
+    plan = Plan.of(room, n_columns=20, n_rows=8)
+    assert {room.objects[number].id for number in plan.top.flat} == {"floor", "wall", "phone", "mug"}
 
 
 def test_keys_move_lift_and_turn() -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from scene2hap import bake
+from scene2hap import HapticBundle, bake
 from scene2hap.cli import main
 from scene2hap.demo import kitchen_path
 from scripted_backend import SCENE, Scripted
@@ -59,6 +59,20 @@ def test_cost_of_a_model_without_price_is_unknown(tmp_path: Path, capsys: pytest
 def test_bake_needs_a_folder(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["bake", str(kitchen_path())]) == 1
     assert "-o BUNDLE" in capsys.readouterr().err
+
+
+def test_bundle_whose_name_leaves_no_room_for_an_account_is_baked(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The longest name that file systems allow has 255 bytes; that of the account is 13 longer than the bundle's."""
+    room = tmp_path / "room.json"
+    room.write_text(SCENE.to_json())
+    target = tmp_path / ("b" * 250)
+    assert main(["bake", str(room), "-o", str(target)]) == 0
+    output = capsys.readouterr()
+    assert "account.json cannot be written" in output.err
+    assert "wrote" in output.out
+    HapticBundle.load(target)
 
 
 def test_page_shows_the_account_of_the_bake(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -111,7 +111,8 @@ def submit_batch(
     exceed `max_cost_usd`. BackendUnavailable: the server cannot be reached, or refuses.
     """
     return run_waiting(
-        _submitted(_Given(scenes, folder, config, executor, options, pictures, user_prompt, progress)), "submit_batch"
+        _submitted(_Given(scenes, folder, config, executor, options, pictures, user_prompt, progress)),
+        "asyncio.to_thread(submit_batch, ...)",
     )
 
 
@@ -134,7 +135,8 @@ def collect_batch(
     Raises: as `submit_batch`.
     """
     return run_waiting(
-        _collected(_Given(scenes, folder, config, executor, options, pictures, user_prompt, progress)), "collect_batch"
+        _collected(_Given(scenes, folder, config, executor, options, pictures, user_prompt, progress)),
+        "asyncio.to_thread(collect_batch, ...)",
     )
 
 
@@ -144,7 +146,7 @@ def batch_status(folder: str | os.PathLike[str], *, config: Config, cancel: bool
 
     Raises: as `submit_batch`.
     """
-    return run_waiting(_status(_Given((), folder, config), cancel), "batch_status")
+    return run_waiting(_status(_Given((), folder, config), cancel), "asyncio.to_thread(batch_status, ...)")
 
 
 @dataclass(frozen=True)
@@ -198,7 +200,8 @@ class _Work:
                 now = await self.service.status(row.batch)
                 row = self._note(row, now)
                 if now.has_ended:
-                    files = [await self._content(file) for file in (now.output_file, now.error_file)]
+                    names = (now.output_file, now.error_file)
+                    files = [await self.service.content(name) if name else "" for name in names]
                     self.batches.keep(row, *files)
 
     async def note_status(self, cancel: bool) -> None:
@@ -221,6 +224,7 @@ class _Work:
         errors: dict[str, str] = {}
         with Pool(given.executor) as pool:
             run = Run(
+                paths,
                 self.folder,
                 self.config,
                 self.config,
@@ -230,7 +234,6 @@ class _Work:
                 given.pictures,
                 given.progress,
             )
-            run.name(paths)
 
             async def one(path: Path) -> str:
                 watched = _Watched(stack)
@@ -243,7 +246,7 @@ class _Work:
                     return "failed"
 
             try:
-                n_ready = (await run.each(paths, one)).count("ready")
+                n_ready = (await run.each(one)).count("ready")
             finally:
                 # Complete the file of new questions, however this run ends.
                 backend.close()
@@ -269,9 +272,6 @@ class _Work:
                 f"{report.n_to_send} questions would bring the cost to about {cost:.2f} dollars ({spent:.2f} so far); "
                 f"max_cost_usd is {limit:g}. Nothing was sent. Raise the limit, or name fewer scenes."
             )
-
-    async def _content(self, file: str) -> str:
-        return await self.service.content(file) if file else ""
 
 
 class _Watched(Wrapper):

@@ -22,7 +22,7 @@ import warnings
 from collections import Counter
 from collections.abc import Awaitable, Callable, Iterable, Mapping
 from contextlib import AsyncExitStack, suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -103,7 +103,7 @@ def bake_many(
         user_prompt=user_prompt,
         progress=progress,
     )
-    return run_waiting(running, "abake_many")
+    return run_waiting(running, "abake_many(...)")
 
 
 @clear_call
@@ -122,6 +122,7 @@ async def abake_many(
     paths, parsed = scene_paths(scenes), BakeConfig.parse(config)
     with Pool(executor) as pool:
         run = Run(
+            paths,
             checks.path("folder", folder, error=ConfigError),
             parsed,
             # Workers get the lexicon in place of a network model: they send no questions, and a connection cannot be
@@ -133,7 +134,7 @@ async def abake_many(
             pictures,
             progress,
         )
-        return await run.all(paths)
+        return await run.all()
 
 
 def scene_paths(scenes: Iterable[str | os.PathLike[str]]) -> list[Path]:
@@ -157,8 +158,9 @@ class _Inferred:
 
 @dataclass
 class Run:
-    """One run over scenes: settings, paths on disk, and progress."""
+    """One run over scenes: settings, paths on disk, and progress. Raises: ConfigError: a scene is given twice."""
 
+    paths: list[Path]
     folder: Path
     config: BakeConfig
     for_workers: BakeConfig
@@ -167,48 +169,44 @@ class Run:
     pool: Pool
     pictures: bool
     progress: Progress | None
-    done: int = 0
-    total: int = 0
-    settings: str = ""
-    names: dict[Path, str] = field(default_factory=dict)
-    slots: Slots = field(init=False)
-    """The limit of concurrent questions of all scenes together."""
+    n_done: int = 0
 
     def __post_init__(self) -> None:
-        self.slots = Slots(self.config.concurrency)
-
-    def name(self, paths: list[Path]) -> None:
-        """Set the name of each scene, and the digest of the settings."""
-        self.total, self.names = len(paths), _names(paths)
+        self.names: dict[Path, str] = _names(self.paths)
         options = {**self.options, "pictures": self.pictures}
-        self.settings = settings_digest(self.config, self.user_prompt, options)
+        self.settings: str = settings_digest(self.config, self.user_prompt, options)
+        self.slots: Slots = Slots(self.config.concurrency)  # of all scenes together
 
-    async def all(self, paths: list[Path]) -> ManyReport:
+    async def all(self) -> ManyReport:
         """Bake the scenes, and write the report."""
         begun = time.perf_counter()
-        self.name(paths)
         try:
             (self.folder / WORK).mkdir(parents=True, exist_ok=True)  # before a model costs money
         except OSError as cause:
             raise ConfigError(unwritable(self.folder, cause)) from cause
-        found = await self.each(paths, self._scene)
+        found = await self.each(self._scene)
         stack = {name: dict(layer) for name, layer in reports(self.config.llm).items()}
         report = ManyReport(found, time.perf_counter() - begun, stack)
         if not report.failed:
             shutil.rmtree(self._work("all", ".pictures"), ignore_errors=True)
-        write_record(self.folder / REPORT, report.to_data())
+        try:
+            write_record(self.folder / REPORT, report.to_data())
+        except ConfigError as cause:
+            # On a full disk the scenes have failed, too, and no report tells why.
+            errors = " ".join(f"{one.scene}: {one.error}" for one in report.failed[:3])
+            raise ConfigError(f"{cause} {report}. {errors}".rstrip()) from cause
         return report
 
-    async def each(self, paths: list[Path], work: Callable[[Path], Awaitable[Report]]) -> list[Report]:
+    async def each(self, work: Callable[[Path], Awaitable[Report]]) -> list[Report]:
         """Return the report of each scene. Keeps enough scenes in progress to use all workers."""
         gate = asyncio.Semaphore(self.pool.n_workers + _AHEAD)
 
         async def one(path: Path) -> Report:
             async with gate:
                 found = await work(path)
-            self.done += 1
+            self.n_done += 1
             if self.progress is not None:
-                self.progress(str(found), self.names[path], self.done, self.total)
+                self.progress(str(found), self.names[path], self.n_done, len(self.paths))
             return found
 
         with warnings.catch_warnings():
@@ -216,7 +214,7 @@ class Run:
             # set once here and not by each thread that reads a scene.
             for category in (SceneWarning, TextureWarning, UnitWarning):
                 warnings.simplefilter("ignore", category)
-            running = [asyncio.ensure_future(one(path)) for path in paths]
+            running = [asyncio.ensure_future(one(path)) for path in self.paths]
             try:
                 return await asyncio.gather(*running)
             except asyncio.CancelledError:

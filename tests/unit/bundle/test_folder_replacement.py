@@ -11,7 +11,7 @@ import pytest
 
 from files_of import files_of
 from scene2hap import HapticBundle
-from scene2hap.bundle import folder_replacement, read_overrides, save_stamp
+from scene2hap.bundle import folder_replacement, read_overrides, require_replaceable, save_stamp
 from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.folder import write_bundle
 from scene2hap.bundle.folder_swap import exchange
@@ -128,6 +128,12 @@ def test_long_folder_name_is_accepted(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("both_ways")
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows calls a name that is too long absent")
+def test_too_long_name_is_refused_before_a_bake(tmp_path: Path) -> None:
+    with pytest.raises(BundleError, match=r"cannot be written: .* Give a shorter name\."):
+        require_replaceable(tmp_path / ("b" * 256))
+
+
 def test_foreign_files_are_kept_by_every_save(tmp_path: Path) -> None:
     folder = a_bundle().save(tmp_path / "room")
     theirs = {

@@ -13,7 +13,6 @@ from scene2hap.bundle.account import account_path, read_account, write_account
 from scene2hap.errors import BundleError, ConfigError
 from scene2hap.llm.report import InferenceReport
 from scene2hap.report import report_document
-from scene2hap.report.document import document
 from scripted_backend import SCENE, Scripted
 
 ACCOUNT = {
@@ -34,7 +33,7 @@ def bundle() -> HapticBundle:
 
 
 def told(bundle: HapticBundle, account: object) -> tuple[dict[str, list[str]], list[list[str]]]:
-    found = document(bundle, most_points=50, account=account)["account"]
+    found = report_document(bundle, most_points=50, account=account)["account"]
     rows: dict[str, list[str]] = {}
     for label, text in found["rows"]:
         rows.setdefault(label, []).append(text)
@@ -60,7 +59,7 @@ def test_inference_report_becomes_an_account(bundle: HapticBundle) -> None:
     rows, _ = told(bundle, accounts[0].as_json())
     assert rows["calls"][0].startswith(f"{sum(accounts[0].calls.values())}: ")
     assert rows["tokens"] == ["none were reported"]
-    assert document(bundle, most_points=50)["account"] is None
+    assert report_document(bundle, most_points=50)["account"] is None
 
 
 @pytest.mark.parametrize(
@@ -68,7 +67,7 @@ def test_inference_report_becomes_an_account(bundle: HapticBundle) -> None:
 )
 def test_invalid_account_is_refused(wrong: dict[str, object], bundle: HapticBundle) -> None:
     with pytest.raises(ConfigError, match="account of the bake has another shape"):
-        document(bundle, most_points=50, account=wrong)
+        report_document(bundle, most_points=50, account=wrong)
 
 
 def test_account_file_is_written_beside_the_bundle(bundle: HapticBundle, tmp_path: Path) -> None:
@@ -99,7 +98,7 @@ def test_skipped_calls_state_a_reason() -> None:
 
     plain = bake(SCENE, {"llm": Scripted(object_analyzer=failing)})
     assert plain.objects["cup"].provenance["object_category"].startswith("error")
-    rows = document(plain.override("phone", muted=True, locked=True), most_points=50)["left_out"]
+    rows = report_document(plain.override("phone", muted=True, locked=True), most_points=50)["left_out"]
     reasons = {row["why"].partition(":")[0]: row["objects"] for row in rows}
     assert reasons == {
         "not answered": ["cup"],
@@ -109,5 +108,7 @@ def test_skipped_calls_state_a_reason() -> None:
         "out of reach": ["table", "phone", "cup"],  # since the source is muted
         "silent": ["table"],
     }
-    reached = {row["why"].partition(":")[0]: row["objects"] for row in document(plain, most_points=50)["left_out"]}
+    reached = {
+        row["why"].partition(":")[0]: row["objects"] for row in report_document(plain, most_points=50)["left_out"]
+    }
     assert reached["out of reach"] == ["cup"]

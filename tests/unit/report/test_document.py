@@ -14,8 +14,7 @@ import soundfile
 from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake
 from scene2hap.cli import main
 from scene2hap.errors import ConfigError
-from scene2hap.report import write_report
-from scene2hap.report.document import document
+from scene2hap.report import report_document, write_report
 from scene2hap.report.felt_map import ALL_BANDS, ALL_SOURCES, felt_map
 from scene2hap.report.surface_points import patches_of
 
@@ -55,13 +54,13 @@ def test_points_lie_on_surfaces_in_the_requested_number(kitchen: HapticBundle) -
 
 def test_the_document_is_plain_data_with_sounds_that_play(kitchen: HapticBundle) -> None:
     kitchen = kitchen.override("refrigerator", gain_db=-3.0)
-    found = json.loads(json.dumps(document(kitchen, most_points=500), allow_nan=False))
+    found = json.loads(json.dumps(report_document(kitchen, most_points=500), allow_nan=False))
     assert [item["id"] for item in found["objects"]] == [item.id for item in kitchen.snapshot.objects]
     fridge = next(item for item in found["objects"] if item["id"] == "refrigerator")
     assert fridge["override"] == {"gain_db": -3.0}
     assert fridge["editable"]["gain_db"] == -3.0
     assert fridge["editable"]["name"] == kitchen.snapshot.object("refrigerator").name
-    named = document(kitchen.override("refrigerator", name="wine cooler"), most_points=500)["objects"]
+    named = report_document(kitchen.override("refrigerator", name="wine cooler"), most_points=500)["objects"]
     assert next(item for item in named if item["id"] == "refrigerator")["editable"]["name"] == "wine cooler"
     assert [name for name, *_ in fridge["constants"]] == [
         "density",
@@ -87,7 +86,7 @@ def test_the_document_is_plain_data_with_sounds_that_play(kitchen: HapticBundle)
 
 def test_silent_and_single_scenes_have_a_page_too() -> None:
     alone = SceneSnapshot.build([SceneObject("mug", geometry=Box((0.1, 0.1, 0.1)))], name="room")
-    found = document(bake(alone))
+    found = report_document(bake(alone))
     assert found["felt"]["sources"] == [ALL_SOURCES]
     assert found["contacts"] == []
     assert found["objects"][0]["states"] == []
@@ -123,7 +122,7 @@ def test_copies_of_an_object_share_their_sound_in_the_document() -> None:
         ],
         name="room",
     )
-    found = document(bake(scene), most_points=200)
+    found = report_document(bake(scene), most_points=200)
     shown = {item["id"]: found["loops"][item["states"][0]["loop"]] for item in found["objects"] if item["is_source"]}
     assert set(shown) == {"p1", "p2", "p3", "fan"}
     assert shown["p1"] is shown["p2"] is shown["p3"]

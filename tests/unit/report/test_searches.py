@@ -9,7 +9,7 @@ import pytest
 
 from scene2hap import HapticBundle
 from scene2hap.propagation.paths import prepared_paths, traced_paths
-from scene2hap.report.document import document
+from scene2hap.report import report_document
 
 
 def test_one_search_serves_levels_paths_and_contacts(kitchen_bundle: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -28,6 +28,6 @@ def test_one_search_serves_levels_paths_and_contacts(kitchen_bundle: Path, monke
         monkeypatch.setattr(module, "least_costs", counted)
     monkeypatch.setattr("scene2hap.propagation.paths.live_law.LivePaths.least_costs", refused)
     bundle = HapticBundle.load(kitchen_bundle)
-    found = document(bundle, most_points=300)
+    found = report_document(bundle, most_points=300)
     assert n_sources == [len(bundle.loops)]
     assert any(contact["passes_db"] is not None for contact in found["contacts"])
