@@ -135,6 +135,8 @@ class Playback:
         self._tactile_rate_hz = min(config.tactile_rate_hz, config.sample_rate_hz)
         self._coming: dict[LoopRow, Future[PreparedLoop]] = {}
         self._position = 0
+        self.updated_at: int = 0
+        """The frame of the last update, which may be later than `position`."""
         self._paused_from: int | None = None
         self._frozen_at: int | None = None
         self._hands = list(range(n_hands))
@@ -160,6 +162,11 @@ class Playback:
     def position(self) -> int:
         """The next frame of `render`; it does not advance in a pause."""
         return self._position
+
+    @property
+    def now(self) -> int:
+        """The next frame of `render`, or that of the last update if it is later: no change is earlier."""
+        return max(self._position, self.updated_at)
 
     @property
     def is_paused(self) -> bool:
@@ -323,9 +330,10 @@ class Playback:
         self._mixers = [mixer for mixer in self._mixers if not set(mixer.hands).isdisjoint(self._hands)]
         self._plan = self._new_plan()
 
-    def pause(self, at_frame: int) -> None:
+    def pause(self) -> None:
         """Fade to silence, then stop the clock."""
         if self._paused_from is None:
+            at_frame = self.now
             for mixer in self._mixers:
                 mixer.silence(at_frame)
             if self._bursts is not None:
