@@ -11,6 +11,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, NoReturn, Self, overload
 
@@ -137,7 +138,6 @@ class HapticSession:
         frames, level = self._hand_frames, self._sources.user
         self._impacts = Impacts(self.config, self._state, self._playback, lambda: frames.field, lambda: level.factor)
         self._output = Output(sink, self.config)
-        self._whole = WholeFrames(self.config.sample_rate_hz)
         self._user: UserProfile | None = None
         if user is not None:
             self._use_profile(UserProfile.parse(user))
@@ -594,6 +594,10 @@ class HapticSession:
     def safety_stats(self) -> SafetyStats:
         """Counters of the changes by the safety layer of a started session."""
         return self._output.safety_stats
+
+    @cached_property
+    def _whole(self) -> WholeFrames:
+        return WholeFrames(self.config.sample_rate_hz)
 
     def _put(
         self,
