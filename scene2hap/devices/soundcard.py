@@ -270,10 +270,8 @@ class _CardLine:
 def _checked_channels(channels: Mapping[str, int] | Sequence[int] | None) -> Mapping[str, int] | tuple[int, ...] | None:
     if channels is None:
         return None
-    by_name = isinstance(channels, Mapping)
-    numbers = checks.items(
-        "channels", channels.values() if isinstance(channels, Mapping) else channels, error=ConfigError
-    )
+    given = channels.values() if isinstance(channels, Mapping) else channels
+    numbers = checks.items("channels", given, error=ConfigError)
     for number in numbers:
         if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= 256:
             raise ConfigError(
@@ -281,7 +279,7 @@ def _checked_channels(channels: Mapping[str, int] | Sequence[int] | None) -> Map
             )
     if len(set(numbers)) < len(numbers):
         raise ConfigError(f"channels is {checks.represented(channels)}; each hand needs a channel of its own.")
-    return dict(channels) if by_name else tuple(numbers)  # type: ignore[arg-type]  # narrowed above
+    return dict(channels) if isinstance(channels, Mapping) else numbers
 
 
 def _checked_latency(latency: float | str) -> float | str:
