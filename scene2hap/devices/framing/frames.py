@@ -97,6 +97,11 @@ def pcm(block: Block, *, sequence: int, time_us: int = 0, format: SampleFormat =
     return Frame(FrameType.PCM, sequence, block.shape[1], format, len(block), time_us, payload)
 
 
+def clock_us(time_s: float) -> int:
+    """Return a time [s] as the `time_us` of a frame."""
+    return int(time_s * 1e6) % 2**32
+
+
 def to_int16(block: Block) -> bytes:
     """Convert samples to 16-bit integers: 1.0 becomes 32767, rounded to nearest and clipped; NaN becomes silence."""
     within = np.clip(np.nan_to_num(block, nan=0.0), -1.0, 1.0)
