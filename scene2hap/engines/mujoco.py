@@ -63,7 +63,7 @@ class MuJoCoLink(EngineLink):
     def _reported(self, steps: Sequence[Any]) -> tuple[Sequence[Touch], Sequence[Contact] | None]:
         if self._engine.reports:
             # From then on the adapter reports these points as those of one step.
-            self._engine.points = engine.points_of_steps(steps)
+            self._engine.points = steps[0] if len(steps) == 1 else engine.points_of_steps(steps)
         return super()._reported([super()._step()])
 
 
