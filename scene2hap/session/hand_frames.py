@@ -242,7 +242,7 @@ class HandFrames:
             silence = self._nothing()
             if self._config.skip.idle_hands:
                 self._counts.idle_hands += len(self._hands)
-            return HandGains(silence, silence)
+            return HandGains(lambda: silence, silence)
         self._known_levels()
         personal = self._personal
         field = self.keeper.method(self._sources.ids, self._reach)

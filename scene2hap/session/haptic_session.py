@@ -64,7 +64,7 @@ from scene2hap.session.likely_mistakes import (
 )
 from scene2hap.session.mix.output import Output
 from scene2hap.session.mix.playback import Playback
-from scene2hap.session.mix.sources import SourceInfo, Sources
+from scene2hap.session.mix.sources import Level, SourceInfo, Sources
 from scene2hap.session.mix.starts_and_stops import Switching
 from scene2hap.session.prepared_shapes import PreparedShapes
 from scene2hap.session.scene_state import SceneState
@@ -123,8 +123,7 @@ class HapticSession:
         self._sources = Sources()
         for object_id, loops in bundle.loops.items():
             if loops:
-                haptics, muted = bundle.objects.get(object_id), bundle.is_muted(object_id)
-                self._sources.add(object_id, loops, haptics, bundle.gain_db(object_id), is_muted=muted)
+                self._sources.add(object_id, loops, bundle.objects.get(object_id), _level(bundle, object_id))
         follows_outlines = bool(getattr(self.config.propagation, "follows_outlines", False))
         self._state = SceneState(scene, bundle, follows_outlines=follows_outlines)
         finds_contacts = scene.contacts is None
@@ -611,8 +610,7 @@ class HapticSession:
         change = self._state.add(item, haptics)
         self._shapes.order([item.geometry.mesh])
         if loops:
-            gain_db, muted = corrected.gain_db(its_id), corrected.is_muted(its_id)
-            self._sources.add(item.id, loops, haptics, gain_db, is_muted=muted)
+            self._sources.add(item.id, loops, haptics, _level(corrected, its_id))
             self._playback.change_rows(self._sources.rows(), self._playback.now)
         self._hand_frames.apply(change, sources_changed=bool(loops))
 
@@ -662,3 +660,7 @@ class HapticSession:
                 self._state.require(object_id)
                 require_pose(object_id, pose)
             raise
+
+
+def _level(bundle: HapticBundle, object_id: str) -> Level:
+    return Level(bundle.gain_db(object_id), bundle.is_muted(object_id))
