@@ -53,7 +53,7 @@ class HandFrames:
         self._is_fresh = False
         self._pending: list[ContactChange] = []
         self._must_request, self._are_sources_known = False, True
-        self._look_around()
+        self._find_reach()
         self.keeper: FieldKeeper | LiveKeeper = keeper_of(config, state, self._known_excitations())
         self._count_unreachable()
 
@@ -199,13 +199,13 @@ class HandFrames:
             return
         pending, must_request = self._pending, self._must_request
         self._pending, self._must_request, self._are_sources_known = [], False, True
-        self._look_around()
+        self._find_reach()
         if must_request or any(map(self._reach.concerns, pending)):
             self._request_field()
         else:
             self._counts.changes_out_of_reach += len(pending)
 
-    def _look_around(self) -> None:
+    def _find_reach(self) -> None:
         """Find connected objects again."""
         self._bodies, self._reach = self._state.bodies, self._state.reach(self._sources.ids)
         self._bodiless = [x for x in self._sources.ids if x not in self._bodies]

@@ -315,7 +315,7 @@ class HapticSession:
         Raises: UnknownObject; SessionError: it is the last object.
         """
         self._state.require(object_id)
-        if len(self._state.objects) == 1 and object_id in self._state.objects:
+        if len(self._state.objects) == 1:
             raise SessionError(f"{object_id!r} is the last object of the scene; add another one before removing it.")
         self._take_out(object_id)
 

@@ -179,7 +179,7 @@ class Impacts:
         self, impact: Impact, burst: Burst, felt: Felt, hands: tuple[str, ...], profile: UserProfile | None
     ) -> None:
         at_frame, f = impact.at_sample, burst.frequencies_hz
-        channels = dict(zip(felt, (hands[i] for i in felt), strict=True))
+        channels = {i: hands[i] for i in felt}
         touched: dict[int, list[TouchedPoint]] = {i: [(x.object_id, x.point_m) for x in felt[i]] for i in felt}
 
         def sound(gains: Floats, begin: int, among: Collection[int]) -> None:

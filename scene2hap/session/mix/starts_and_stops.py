@@ -86,7 +86,7 @@ class Switching:
     def follow_contacts(self, now: int) -> bool:
         """Start and stop sources that got or lost the contact that they need. Returns true if there are any."""
         if self._known is not self._sources.ids:
-            self._look_around(now)
+            self._follow_sources(now)
         topology = self._state.graph.topology
         if self._topology == topology:
             return False
@@ -105,7 +105,7 @@ class Switching:
         passing = self._passing.get(source_id)
         return STEADY if passing is None else self._playback.running(passing.passage, self._playback.now)
 
-    def _look_around(self, now: int) -> None:
+    def _follow_sources(self, now: int) -> None:
         """Update the stored data after sources were added or removed."""
         self._known, self._topology = self._sources.ids, None
         self._needing = [x for x in self._known if any(self._sources[x].needs.values())]
