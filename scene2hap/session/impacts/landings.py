@@ -164,7 +164,7 @@ class Landings:
         return [one for one in found if (one.onto, one.object_id) not in met or one.object_id < one.onto]
 
     def _met(self, object_id: str) -> Mapping[str, Junction]:
-        """Return the present contacts of an object first, then those that ended in this step."""
+        """Return the present contacts of an object, and those that ended in this step."""
         near, beside = self._near.get(object_id, _NOTHING), self._graph.beside.get(object_id, _NOTHING)
         if near.keys() <= beside.keys():
             return beside
@@ -191,15 +191,18 @@ class Landings:
         return False
 
     def _landing(self, object_id: str, track: MotionTrack, time_s: float) -> list[Landing]:
-        """The landing on the touched object that was approached the fastest; empty if there is none."""
+        """The landing on the touched object that was approached the fastest, of equal ones the first by id; empty if
+        there is none."""
         run = track.run()
         (first, begin_s), (before, before_s), (last, end_s) = run[0], run[-2], run[-1]
         best, most_m, turned_m, turns_m, now = None, LEAST_TRAVEL_M, 0.0, 0.0, self._n_updates
         # The step after a long frame is short, without being slow. The ratio is unknown if the clock stands still.
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
-        beside = self._graph.beside.get(object_id, _NOTHING)
-        for other, junction in [(x, side) for x, whole in self._met(object_id).items() for side in _sides(whole)]:
+        beside, met = self._graph.beside.get(object_id, _NOTHING), self._met(object_id)
+        # The graph's order depends on the hashes of ids, which differ in each run of Python. Present contacts first.
+        others = sorted(met, key=lambda x: (x not in beside, x))
+        for other, junction in [(x, side) for x in others for side in _sides(met[x])]:
             if best is not None and other not in beside:
                 break
             point = _middle(junction)
