@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from scene2hap.bridge.frame_layout import Layout, Layouts
 from scene2hap.bridge.frames import IS_PREPARING, PAUSED, Frame, Gains
 from scene2hap.bridge.session_warnings import Tell
-from scene2hap.devices.clocked_sink import has_clock
-from scene2hap.devices.protocol import ActuatorSink
+from scene2hap.devices.protocol import ActuatorSink, has_clock
 from scene2hap.devices.whole_frames import WholeFrames
 from scene2hap.engines.changes import Changes
 from scene2hap.errors import BridgeError

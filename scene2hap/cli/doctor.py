@@ -26,8 +26,7 @@ from scene2hap.cli.list import GROUPS
 from scene2hap.cli.shared_options import given_spec
 from scene2hap.compiled import are_in_use
 from scene2hap.devices import SINKS, loopback_latency
-from scene2hap.devices.clocked_sink import has_clock
-from scene2hap.devices.protocol import ActuatorSink, Block, SinkEvent, SinkFormat
+from scene2hap.devices.protocol import ActuatorSink, Block, SinkEvent, SinkFormat, has_clock
 from scene2hap.errors import ConfigError, DeviceError, MissingExtra
 from scene2hap.haptics import ActuatorProfile
 from scene2hap.render.safety import SafetyLayer

@@ -24,8 +24,7 @@ from scene2hap.cli.console import Console
 from scene2hap.cli.plan import Plan
 from scene2hap.cli.shared_options import given_spec, session_config
 from scene2hap.devices import SINKS
-from scene2hap.devices.clocked_sink import has_clock
-from scene2hap.devices.protocol import ActuatorSink, SinkEvent
+from scene2hap.devices.protocol import ActuatorSink, SinkEvent, has_clock
 from scene2hap.errors import ConfigError
 from scene2hap.session import HapticFrame, HapticSession, Touch
 

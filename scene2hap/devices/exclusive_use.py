@@ -11,7 +11,7 @@ from collections.abc import Hashable
 from weakref import WeakValueDictionary
 
 from scene2hap import checks
-from scene2hap.devices.protocol import ActuatorSink
+from scene2hap.devices.protocol import ActuatorSink, parts_of
 from scene2hap.errors import ConfigError, DeviceError
 from scene2hap.forks import lock_of_process
 
@@ -59,12 +59,6 @@ def give_back_sink(sink: ActuatorSink, holder: object) -> None:
     """Release a sink and all sinks inside it."""
     for part in parts_of(sink):
         give_back(("sink", id(part)), holder)
-
-
-def parts_of(sink: ActuatorSink) -> list[ActuatorSink]:
-    """Return a sink and all sinks inside it, such as those of a TeeSink."""
-    parts: tuple[ActuatorSink, ...] = getattr(sink, "sinks", ())
-    return [sink, *(x for part in parts for x in parts_of(part))]
 
 
 def port_key(port: str) -> Hashable:

@@ -77,7 +77,8 @@ class ActuatorSink(Protocol):
 
     Optional members are looked up by name. `on_event` is an `EventCallback` or None, and may be set at any time (sinks
     with a device: see `scene2hap.devices.link`). `abort()` is called instead of `close` when a run has failed.
-    `show(frame)` is called with every HapticFrame, for devices that play gains.
+    `show(frame)` is called with every HapticFrame, for devices that play gains. `pull(n_frames)` requests blocks from a
+    sink without a clock. `sinks` are those of a group.
     """
 
     def open(self, format: SinkFormat, /) -> None:
@@ -100,3 +101,17 @@ class ActuatorSink(Protocol):
     def stats(self) -> SinkStats:
         """Statistics so far."""
         ...
+
+
+def parts_of(sink: ActuatorSink) -> list[ActuatorSink]:
+    """Return a sink and all sinks inside it, such as those of a TeeSink."""
+    parts: tuple[ActuatorSink, ...] = getattr(sink, "sinks", ())
+    return [sink, *(x for part in parts for x in parts_of(part))]
+
+
+def has_clock(sink: ActuatorSink) -> bool:
+    """Return True if a sink requests blocks by its own clock; False for sinks that are pulled, and for groups of them.
+
+    Only with a clock can a watchdog detect that a game is late.
+    """
+    return any(not hasattr(part, "pull") for part in parts_of(sink))

@@ -10,7 +10,16 @@ import numpy as np
 from scene2hap import checks
 from scene2hap.calls import clear_calls
 from scene2hap.devices.exclusive_use import port_key
-from scene2hap.devices.framing.frames import MAX_PAYLOAD, FrameParser, FrameType, SampleFormat, message, pcm, to_wire
+from scene2hap.devices.framing.frames import (
+    MAX_PAYLOAD,
+    FrameParser,
+    FrameType,
+    SampleFormat,
+    clock_us,
+    message,
+    pcm,
+    to_wire,
+)
 from scene2hap.devices.framing.link_messages import GREETED, HEARD, Credit, DeviceFormat, Hello, is_newer
 from scene2hap.devices.link import CarryOn, LiveSink
 from scene2hap.devices.protocol import Block, EventCallback, SinkFormat
@@ -119,7 +128,7 @@ class SerialLine:
         self._sequence = (self._sequence + 1) % 2**16
         self._in_flight.append((self._sequence, len(block)))
         self._room -= len(block)
-        self._write(to_wire(pcm(block, sequence=self._sequence, time_us=_micros(time.monotonic()))))
+        self._write(to_wire(pcm(block, sequence=self._sequence, time_us=clock_us(time.monotonic()))))
 
     def disconnect(self) -> None:
         """Mute the device and close the port."""
@@ -202,14 +211,10 @@ class SerialLine:
         self._room = room - flying
         self.underruns = credit.underruns
         if heard:
-            transfer_s = (_micros(now) - sent_us) % 2**32 / 1e6
+            transfer_s = (clock_us(now) - sent_us) % 2**32 / 1e6
             self.latency_s = transfer_s + credit.queued_frames / self._rate_hz
 
     def _write(self, data: bytes) -> None:
         if self._port is None:
             raise DeviceLost(f"{self._name} is not open.")
         self._port.write(data)
-
-
-def _micros(now_s: float) -> int:
-    return int(now_s * 1e6) % 2**32

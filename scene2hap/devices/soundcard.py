@@ -92,12 +92,13 @@ class SoundCardSink(LiveSink):
         if device is not None and (isinstance(device, bool) or not isinstance(device, str | int) or device == ""):
             raise ConfigError(f"device is {checks.represented(device)}; it must be a name, an index or None.")
         portaudio.require_sounddevice()
-        channels, latency, rate_hz = (
+        self._card_line = _CardLine(
+            device,
             _checked_channels(channels),
             _checked_latency(latency),
             _checked_rate(sample_rate_hz),
+            _checked_block(block_frames),
         )
-        self._card_line = _CardLine(device, channels, latency, rate_hz, _checked_block(block_frames))
         name = "the default sound card" if device is None else f"sound card {device!r}"
         super().__init__(self._card_line, name, on_event=on_event)
 
@@ -270,10 +271,8 @@ class _CardLine:
 def _checked_channels(channels: Mapping[str, int] | Sequence[int] | None) -> Mapping[str, int] | tuple[int, ...] | None:
     if channels is None:
         return None
-    by_name = isinstance(channels, Mapping)
-    numbers = checks.items(
-        "channels", channels.values() if isinstance(channels, Mapping) else channels, error=ConfigError
-    )
+    given = channels.values() if isinstance(channels, Mapping) else channels
+    numbers = checks.items("channels", given, error=ConfigError)
     for number in numbers:
         if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= 256:
             raise ConfigError(
@@ -281,7 +280,7 @@ def _checked_channels(channels: Mapping[str, int] | Sequence[int] | None) -> Map
             )
     if len(set(numbers)) < len(numbers):
         raise ConfigError(f"channels is {checks.represented(channels)}; each hand needs a channel of its own.")
-    return dict(channels) if by_name else tuple(numbers)  # type: ignore[arg-type]  # narrowed above
+    return dict(channels) if isinstance(channels, Mapping) else numbers
 
 
 def _checked_latency(latency: float | str) -> float | str:
@@ -296,8 +295,7 @@ def _checked_rate(rate_hz: int | None) -> int | None:
     if rate_hz is None:
         return None
     hint = "None takes the session's rate, or the device's own."
-    bounds = {"at_least": 1000, "at_most": 768_000}
-    return checks.whole("sample_rate_hz", rate_hz, "Hz", **bounds, error=ConfigError, hint=hint)
+    return checks.whole("sample_rate_hz", rate_hz, "Hz", at_least=1000, at_most=768_000, error=ConfigError, hint=hint)
 
 
 def _checked_block(frames: int) -> int:

@@ -19,9 +19,17 @@ import numpy as np
 
 from scene2hap.calls import clear_calls
 from scene2hap.checks import shown
-from scene2hap.devices.clocked_sink import has_clock
-from scene2hap.devices.exclusive_use import parts_of
-from scene2hap.devices.protocol import ActuatorSink, Block, EventCallback, Fill, SinkEvent, SinkFormat, SinkStats
+from scene2hap.devices.protocol import (
+    ActuatorSink,
+    Block,
+    EventCallback,
+    Fill,
+    SinkEvent,
+    SinkFormat,
+    SinkStats,
+    has_clock,
+    parts_of,
+)
 from scene2hap.devices.whole_frames import Pulled, WholeFrames
 from scene2hap.errors import ConfigError, DeviceError
 

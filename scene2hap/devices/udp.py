@@ -11,7 +11,7 @@ from scene2hap import checks
 from scene2hap.calls import clear_calls
 from scene2hap.devices.datagrams import Datagrams
 from scene2hap.devices.due_frames import Pace
-from scene2hap.devices.framing.frames import MAX_PAYLOAD, FrameType, SampleFormat, message, pcm, to_datagram
+from scene2hap.devices.framing.frames import MAX_PAYLOAD, FrameType, SampleFormat, clock_us, message, pcm, to_datagram
 from scene2hap.devices.link import CarryOn, LiveSink
 from scene2hap.devices.osc import GainFrame, OscLine
 from scene2hap.devices.protocol import Block, EventCallback, SinkFormat
@@ -115,8 +115,8 @@ class PcmLine:
         now = time.monotonic()
         self._pace.take(len(block))
         self._sequence = (self._sequence + 1) % 2**16
-        stamp = int(now * 1e6) % 2**32
-        self._datagrams.send(to_datagram(pcm(block, sequence=self._sequence, time_us=stamp, format=self._samples)))
+        frame = pcm(block, sequence=self._sequence, time_us=clock_us(now), format=self._samples)
+        self._datagrams.send(to_datagram(frame))
         if now - self._announced_s > ANNOUNCE_S:
             self._announced_s = now
             self._datagrams.send(self._announcement)

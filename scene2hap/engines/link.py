@@ -44,7 +44,7 @@ class EngineLink:
         if missing:
             raise ConfigError(f"{type(adapter).__name__} has no method {missing[0]!r}; see EngineAdapter.")
         self._adapter, self._session, self._changes = adapter, session, Changes(session)
-        self._steps: list[tuple[Sequence[Touch], Sequence[Contact] | None]] = []
+        self._steps: list[Any] = []
         _require_same_scene(self._poses(), session)
 
     def collect(self) -> None:
@@ -53,7 +53,7 @@ class EngineLink:
         The next `update` then reports all contacts of the frame. Those of a ball that bounces or of a finger that taps
         may have ended by then. Without this call, `update` reports those of the last step. Raises: as `update`.
         """
-        self._steps.append(self._now())
+        self._steps.append(self._step())
 
     def update(self, touches: Sequence[Touch] | None = (), *, at_sample: int | None = None) -> HapticFrame:
         """Update the session. Call this once per frame on the game's thread.
@@ -63,17 +63,15 @@ class EngineLink:
         poses are not valid.
         """
         poses, followed = self._poses(), self._session.object_ids
-        steps, self._steps = [*self._steps, self._now()], []
+        steps, self._steps = [*self._steps, self._step()], []
 
         def is_played(object_id: object) -> bool:
             # An id that is unknown to both engine and session is a mistake, which the session reports.
             return object_id in followed or object_id not in poses
 
-        touched = _of_steps([touched for touched, _ in steps], lambda one: (one.hand, one.object_id))
+        touched, met = self._reported(steps)
         felt = [one for one in touched if is_played(one.object_id)]
-        reports = [report for _, report in steps if report is not None]
-        met = _of_steps(reports, lambda one: frozenset((one.a, one.b)))
-        contacts = [one for one in met if is_played(one.a) and is_played(one.b)] if reports else None
+        contacts = None if met is None else [one for one in met if is_played(one.a) and is_played(one.b)]
         try:
             changed = self._changes.of(poses)
             return self._session.update(
@@ -83,9 +81,16 @@ class EngineLink:
             self._changes.forget()
             raise
 
-    def _now(self) -> tuple[Sequence[Touch], Sequence[Contact] | None]:
+    def _step(self) -> Any:
+        """Return what the engine reports of the present step, for `_reported`."""
         touches, contacts = given_touches(self._adapter.touches()), self._adapter.contacts()
         return touches, None if contacts is None else given_contacts(contacts)
+
+    def _reported(self, steps: Sequence[Any]) -> tuple[Sequence[Touch], Sequence[Contact] | None]:
+        """Return touches and contacts of the steps of a frame: of each pair those of the last step that has any."""
+        reports = [contacts for _, contacts in steps if contacts is not None]
+        met = _of_steps(reports, lambda one: frozenset((one.a, one.b))) if reports else None
+        return _of_steps([touches for touches, _ in steps], lambda one: (one.hand, one.object_id)), met
 
     def _poses(self) -> Mapping[str, Pose]:
         poses: Any = self._adapter.poses()
@@ -98,7 +103,7 @@ class EngineLink:
 
 
 def _of_steps(steps: Sequence[Sequence[_T]], pair: Callable[[_T], Hashable]) -> Sequence[_T]:
-    """Return the touches or contacts of several steps: of each pair those of the last step that has any."""
+    """Return the touches or contacts of several steps, see `EngineLink._reported`."""
     if len(steps) == 1:
         return steps[0]
     last: dict[Hashable, list[_T]] = {}

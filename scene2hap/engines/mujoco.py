@@ -49,15 +49,22 @@ class MuJoCoLink(EngineLink):
             raise ConfigError(
                 f"hands is {checks.represented(hands)}; it must be a mapping of hands to bodies, as {{'left': 'palm'}}."
             )
+        self._data = data
         self._engine = _MuJoCo(model, data, hands or {}, contacts == "engine", geom_groups, unit_m)
         super().__init__(self._engine, session)
         for hand in hands or ():
             if hand not in session.hands:
                 raise ConfigError(unknown_hand(hand, session.hands))
 
-    def collect(self) -> None:
-        """Keep the contacts of this `mj_step` for the next `update`, as `EngineLink.collect`."""
-        self._engine.collect()  # as arrays, since a step may have hundreds of contact points
+    def _step(self) -> engine.ContactPoints | None:
+        # As arrays, since a step may have hundreds of contact points.
+        return engine.contact_points(self._data) if self._engine.reports else None
+
+    def _reported(self, steps: Sequence[Any]) -> tuple[Sequence[Touch], Sequence[Contact] | None]:
+        if self._engine.reports:
+            # From then on the adapter reports these points as those of one step.
+            self._engine.points = steps[0] if len(steps) == 1 else engine.points_of_steps(steps)
+        return super()._reported([super()._step()])
 
 
 class _MuJoCo:
@@ -75,29 +82,20 @@ class _MuJoCo:
         self._model, self._data, self._has_contacts = model, data, has_contacts
         self._how: dict[str, Any] = {"geom_groups": geom_groups, "unit_m": unit_m}
         self._hands = {hand: engine.geoms_below(model, data, body) for hand, body in hands.items()}
-        self._steps: list[engine.ContactPoints] = []
-        self._points: engine.ContactPoints | None = None
-
-    def collect(self) -> None:
-        if self._hands or self._has_contacts:
-            self._steps.append(engine.contact_points(self._data))
+        self.reports = has_contacts or bool(hands)
+        self.points: engine.ContactPoints | None = None
 
     def poses(self) -> PoseTable:
-        # Each frame begins with this call. The last step counts as well, as in `EngineLink`.
-        if self._steps:
-            self.collect()
-        self._points = engine.points_of_steps(self._steps) if self._steps else None
-        self._steps.clear()
         return engine.poses(self._model, self._data, **self._how)
 
     def touches(self) -> Sequence[Touch]:
         return [
             Touch(hand, object_id, point_m)
             for hand, part in self._hands.items()
-            for object_id, point_m in engine.touched(self._model, self._data, part, points=self._points, **self._how)
+            for object_id, point_m in engine.touched(self._model, self._data, part, points=self.points, **self._how)
         ]
 
     def contacts(self) -> Sequence[Contact] | None:
         if not self._has_contacts:
             return None
-        return engine.contacts(self._model, self._data, points=self._points, **self._how)
+        return engine.contacts(self._model, self._data, points=self.points, **self._how)

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -142,18 +142,26 @@ class LoopBank:
         read([self.loops[loop] for loop in loops], begin, out)
 
     def only(self, begin: int) -> StoredLoop | None:
-        """Return the loop of a bank of one, at a tactile sample of the common clock; None for silence."""
+        """Return the loop of a bank of one; see `Slot`."""
         return self.loops[0]
 
 
-class SlotBank(LoopBank):
-    """A bank of slots. Each holds a bank of one loop, or is empty.
+class Slot(Protocol):
+    """The content of a slot: a bank of one loop, or a start or stop."""
 
-    Parameters: slots : a bank of one loop for each slot, None for an empty one; shift : tactile samples by which the
-        clock of its mixer is behind the session's.
+    def only(self, begin: int) -> StoredLoop | None:
+        """Return the loop to read at a tactile sample of the common clock; None for silence."""
+        ...
+
+
+class SlotBank(LoopBank):
+    """A bank of slots, some of which may be empty.
+
+    Parameters: slots : None for an empty one; shift : tactile samples by which the clock of its mixer is behind the
+        session's.
     """
 
-    def __init__(self, slots: list[LoopBank | None], bands: Bands, sample_rate_hz: int, shift: int = 0) -> None:
+    def __init__(self, slots: list[Slot | None], bands: Bands, sample_rate_hz: int, shift: int = 0) -> None:
         super().__init__((), bands, sample_rate_hz)
         self.slots = slots
         self._bands, self._shift = bands, shift
@@ -167,8 +175,8 @@ class SlotBank(LoopBank):
 
     def read(self, loops: Sequence[int], begin: int, out: Block) -> None:
         """Write as `LoopBank`; an empty slot is silent."""
-        banks, at = [self.slots[loop] for loop in loops], begin + self._shift
-        read([None if bank is None else bank.only(at) for bank in banks], at, out)
+        slots, at = [self.slots[loop] for loop in loops], begin + self._shift
+        read([None if slot is None else slot.only(at) for slot in slots], at, out)
 
 
 def position_s(n: int, rate_hz: int, frame: int, sample_rate_hz: int) -> float:

@@ -89,8 +89,8 @@ class Course(NamedTuple):
         return x if self.goes_up else 1.0 - x
 
 
-class Passage(LoopBank):
-    """A bank of one loop that starts or stops, once.
+class Passage:
+    """A loop that starts or stops once; a `Slot`.
 
     Its course is tabulated when it is made, in the same time for any duration. Its samples are computed while it plays,
     one cell at a time, since those of 30 s take longer than a frame of a game.
@@ -110,8 +110,6 @@ class Passage(LoopBank):
         after: Passage | None = None,
     ) -> None:
         rate = steady.sample_rate_hz
-        self.sample_rate_hz: int = rate
-        self.n_bands: int = steady.n_bands
         self._begin, self._lead = begin, 0 if course.goes_up else round(LEAD_S * rate)
         share, lasts = course.share(since), lasts_s * rate
         self._n = math.ceil((1 - share) * lasts)
@@ -137,9 +135,9 @@ class Passage(LoopBank):
         self._planned = self.end
         self._below = np.zeros(0, dtype=np.intp)
         self._weights: Block = np.zeros((4, _PLANNED), dtype=np.float32)
-        self._read: Block = np.zeros((self.n_bands, CELL), dtype=np.float32)
-        self._samples: Block = np.zeros((CELL, self.n_bands), dtype=np.float32)
-        self.loops: list[StoredLoop] = [stored_cell(self._samples)]
+        self._read: Block = np.zeros((steady.n_bands, CELL), dtype=np.float32)
+        self._samples: Block = np.zeros((CELL, steady.n_bands), dtype=np.float32)
+        self._cell = stored_cell(self._samples)
         self._afterwards = self._steady if course.goes_up else None
 
     def only(self, begin: int) -> StoredLoop | None:
@@ -150,7 +148,7 @@ class Passage(LoopBank):
             self._plan(begin)
         own = slice(begin - self._planned, begin - self._planned + CELL)
         read_between(self._steady, self._below[own], self._weights[:, own], self._read, self._samples)
-        return self.loops[0]
+        return self._cell
 
     def running(self, at: int) -> Running:
         """Return speed and amplitude at a tactile sample."""
@@ -195,7 +193,7 @@ class Passage(LoopBank):
 
     def _nearest_alike(self, steady: LoopBank, own: float, present: float) -> float:
         """Return how far from its own place in the loop a start begins, to sound like the present place."""
-        farthest, n = round(SEARCH_S * self.sample_rate_hz), round(_ALIKE_S * self.sample_rate_hz)
+        farthest, n = round(SEARCH_S * steady.sample_rate_hz), round(_ALIKE_S * steady.sample_rate_hz)
         first = math.floor(own) - farthest
         near = steady.taken(0, self._begin + first, 2 * farthest + n).astype(np.float64)
         heard = steady.taken(0, self._begin + math.floor(present), n).astype(np.float64)

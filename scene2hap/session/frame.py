@@ -82,8 +82,7 @@ class HapticFrame:
 
         Raises: SessionError: no such hand; UnknownObject: no such source.
         """
-        if not isinstance(hand, str) or hand not in self.hands:  # an array would be compared element by element
-            raise SessionError(unknown_hand(hand, self.hands))
+        require_hand(hand, self.hands)
         if not isinstance(source_id, str) or source_id not in self.sources:
             raise UnknownObject(unknown_source(source_id, self.sources))
         return float(self.gains[self.hands.index(hand), self.sources.index(source_id)].max())
@@ -189,6 +188,12 @@ class RemovedIds:
         """A sentence, after a blank, if the id was removed; else empty."""
         is_removed = isinstance(wanted_id, str) and wanted_id in self._ids
         return f" {wanted_id!r} was removed; `add(object)` puts it back." if is_removed else ""
+
+
+def require_hand(hand: object, hands: Sequence[str]) -> None:
+    """Raise a SessionError if this is none of the hands."""
+    if not isinstance(hand, str) or hand not in hands:  # an array would be compared element by element
+        raise SessionError(unknown_hand(hand, hands))
 
 
 def unknown_hand(hand: object, hands: Sequence[str]) -> str:

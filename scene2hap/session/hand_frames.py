@@ -36,7 +36,7 @@ class HandFrames:
         self, config: SessionConfig, state: SceneState, sources: Sources, peaks: PeaksOf, hands: tuple[str, ...]
     ) -> None:
         self._config, self._state, self._sources, self._peaks = config, state, sources, peaks
-        self._counts = Counts()
+        self._counts, self._n_updates = Counts(), 0
         self._excitations: Sequence[Excitation] | None = None
         self._method: GainMethod | None = None
         self._method_field: LiveField | None = None
@@ -49,11 +49,11 @@ class HandFrames:
         self._loudness: Loudness | None = None
         self._cutoff: tuple[PricedField, CutoffCost] | None = None
         self._felt: Felt = {}
-        self._frame = self.silence(())
+        self._frame = self.silence()
         self._is_fresh = False
         self._pending: list[ContactChange] = []
         self._must_request, self._are_sources_known = False, True
-        self._look_around()
+        self._find_reach()
         self.keeper: FieldKeeper | LiveKeeper = keeper_of(config, state, self._known_excitations())
         self._count_unreachable()
 
@@ -104,23 +104,28 @@ class HandFrames:
         self._profile = None if profile.is_neutral else profile
         self.levels_changed()
 
-    def frame(
-        self, hands: tuple[str, ...], felt: Felt, moved: Collection[str], *, is_paused: bool
-    ) -> tuple[HapticFrame, HandGains | None]:
+    def use_hands(self, hands: tuple[str, ...]) -> None:
+        """Use other hands."""
+        self._hands = hands
+        self.levels_changed()
+
+    def frame(self, felt: Felt, moved: Collection[str], *, is_paused: bool) -> tuple[HapticFrame, HandGains | None]:
         """Gains of the hands, and the part to be mixed; None if nothing has changed."""
         self._catch_up()
-        self._use_hands(hands)
         if self.keeper.take():
             self._is_fresh = False
+        gained = None
         if self._is_unchanged(felt, moved):
             self._counts.unchanged_frames += 1
-            self.keeper.order()
-            return self._frame, None
-        self._felt, self._is_fresh = felt, True
-        gained = None if is_paused else self._gains_of_hands(len(hands), felt)
-        full = self._nothing(len(hands)) if gained is None else gained.full
-        self._frame = HapticFrame(full, hands, self._sources.ids)
+        else:
+            self._felt, self._is_fresh = felt, True
+            if is_paused:
+                self._frame = self.silence()
+            else:
+                gained = self._gains_of_hands(felt)
+                self._frame = HapticFrame(gained.full, self._hands, self._sources.ids)
         self.keeper.order()
+        self._n_updates += 1
         return self._frame, gained
 
     @property
@@ -135,9 +140,9 @@ class HandFrames:
         self._catch_up()
         return self.keeper.field
 
-    def silence(self, hands: tuple[str, ...]) -> HapticFrame:
+    def silence(self) -> HapticFrame:
         """A frame in which all gains are 0."""
-        return HapticFrame(self._nothing(len(hands)), hands, self._sources.ids)
+        return HapticFrame(self._nothing(), self._hands, self._sources.ids)
 
     def wait(self, end: Deadline) -> bool:
         """Wait for the worker; false after the deadline."""
@@ -156,10 +161,9 @@ class HandFrames:
         explainer = Explainer(self._state, self._sources, self._config.propagation, self.keeper.field, gains, levels)
         return explainer.explain(hand, touches, self._frame, is_current=self.keeper.is_current, is_paused=is_paused)
 
-    def would_feel(self, hands: tuple[str, ...], touches: Sequence[Touch]) -> NDArray[np.float64]:
+    def would_feel(self, touches: Sequence[Touch]) -> NDArray[np.float64]:
         """Gains (n_touches, n_sources, n_bands) [-] of each touch alone, 0 below -140 dB; no touch is counted."""
         self._catch_up()
-        self._use_hands(hands)
         if not touches or not self._sources.ids:
             return np.zeros((len(touches), len(self._sources.ids), self._config.bands.n_bands))
         levels = {hand: np.stack([*self._levels_at(hand).values()]) for hand in {touch.hand for touch in touches}}
@@ -171,16 +175,11 @@ class HandFrames:
             one *= levels[touch.hand]
         return np.where(given < SILENT, 0.0, given)
 
-    def _use_hands(self, hands: tuple[str, ...]) -> None:
-        if hands is not self._hands:
-            self._hands = hands
-            self.levels_changed()
-
-    def stats(self, updates: int, rows_not_mixed: int) -> SessionStats:
+    def stats(self, rows_not_mixed: int) -> SessionStats:
         """Counters so far."""
         keeper = self.keeper
         return SessionStats(
-            updates,
+            self._n_updates,
             keeper.n_prepared,
             self._counts.gains_capped,
             self._state.bodiless,
@@ -200,13 +199,13 @@ class HandFrames:
             return
         pending, must_request = self._pending, self._must_request
         self._pending, self._must_request, self._are_sources_known = [], False, True
-        self._look_around()
+        self._find_reach()
         if must_request or any(map(self._reach.concerns, pending)):
             self._request_field()
         else:
             self._counts.changes_out_of_reach += len(pending)
 
-    def _look_around(self) -> None:
+    def _find_reach(self) -> None:
         """Find connected objects again."""
         self._bodies, self._reach = self._state.bodies, self._state.reach(self._sources.ids)
         self._bodiless = [x for x in self._sources.ids if x not in self._bodies]
@@ -238,18 +237,18 @@ class HandFrames:
         # An outdated field is evaluated at the object's former place, so a moved object needs another query.
         return not moved or not any(touch.object_id in moved for touches in felt.values() for touch in touches)
 
-    def _gains_of_hands(self, n_hands: int, felt: Felt) -> HandGains:
+    def _gains_of_hands(self, felt: Felt) -> HandGains:
         if not felt:
-            silence = self._nothing(n_hands)
+            silence = self._nothing()
             if self._config.skip.idle_hands:
-                self._counts.idle_hands += n_hands
-            return HandGains(silence, silence)
+                self._counts.idle_hands += len(self._hands)
+            return HandGains(lambda: silence, silence)
         self._known_levels()
         personal = self._personal
         field = self.keeper.method(self._sources.ids, self._reach)
         if self._method is None or self._method_field is not field:
             self._method, self._method_field = self._new_method(field), field
-        gained = self._method.of_hands(n_hands, felt)
+        gained = self._method.of_hands(len(self._hands), felt)
         return gained if personal is None else personal.applied(gained)
 
     def _new_method(self, field: LiveField) -> GainMethod:
@@ -284,8 +283,8 @@ class HandFrames:
             self._cutoff = (field, CutoffCost(field, audibility, self._known_excitations()))
         return self._cutoff[1]
 
-    def _nothing(self, n_hands: int) -> NDArray[np.float32]:
-        return np.zeros((n_hands, len(self._sources.ids), self._config.bands.n_bands), dtype=np.float32)
+    def _nothing(self) -> NDArray[np.float32]:
+        return np.zeros((len(self._hands), len(self._sources.ids), self._config.bands.n_bands), dtype=np.float32)
 
     def _known_levels(self) -> NDArray[np.float64]:
         """The factor of each source's signal (n_sources,) [-]."""

@@ -159,11 +159,11 @@ def cap(gains: NDArray[np.float64], limit: float) -> int:
 class HandGains(NamedTuple):
     """Gains of all hands.
 
-    full : gains (n_hands, n_sources, n_bands), or a function that computes them; mixed : gains (n_hands, n_columns,
-    n_bands) of the sources in `columns` that are mixed, None for all.
+    full : computes the gains (n_hands, n_sources, n_bands); mixed : gains (n_hands, n_columns, n_bands) of the sources
+    in `columns` that are mixed, None for all.
     """
 
-    full: Gains | Callable[[], Gains]
+    full: Callable[[], Gains]
     mixed: Gains
     columns: Sequence[int] | None = None
 

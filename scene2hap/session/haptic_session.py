@@ -52,10 +52,9 @@ from scene2hap.session.arguments import (
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.explain import Explanation, FeltSource
-from scene2hap.session.frame import GivenTouches, HapticFrame, SessionStats, Touch, unknown_hand
+from scene2hap.session.frame import GivenTouches, HapticFrame, SessionStats, Touch, require_hand
 from scene2hap.session.hand_frames import HandFrames
-from scene2hap.session.impacts.felt_impacts import Impact, Impacts, Strike
-from scene2hap.session.impacts.landings import Landings
+from scene2hap.session.impacts.felt_impacts import Impact, Impacts
 from scene2hap.session.likely_mistakes import (
     NOT_STARTED,
     LikelyMistakes,
@@ -65,7 +64,7 @@ from scene2hap.session.likely_mistakes import (
 )
 from scene2hap.session.mix.output import Output
 from scene2hap.session.mix.playback import Playback
-from scene2hap.session.mix.sources import SourceInfo, Sources
+from scene2hap.session.mix.sources import Level, SourceInfo, Sources
 from scene2hap.session.mix.starts_and_stops import Switching
 from scene2hap.session.prepared_shapes import PreparedShapes
 from scene2hap.session.scene_state import SceneState
@@ -74,16 +73,6 @@ from scene2hap.session.user_profile import UserProfile
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
-
-
-class _Progress:
-    """Number of updates, and the position of the last one on `render`'s clock. They change in every update, and the
-    attributes of the read-only session are slow to set."""
-
-    __slots__ = ("last_stamp", "n_updates")
-
-    def __init__(self) -> None:
-        self.last_stamp = self.n_updates = 0
 
 
 @clear_calls
@@ -134,8 +123,7 @@ class HapticSession:
         self._sources = Sources()
         for object_id, loops in bundle.loops.items():
             if loops:
-                haptics, muted = bundle.objects.get(object_id), bundle.is_muted(object_id)
-                self._sources.add(object_id, loops, haptics, bundle.gain_db(object_id), is_muted=muted)
+                self._sources.add(object_id, loops, bundle.objects.get(object_id), _level(bundle, object_id))
         follows_outlines = bool(getattr(self.config.propagation, "follows_outlines", False))
         self._state = SceneState(scene, bundle, follows_outlines=follows_outlines)
         finds_contacts = scene.contacts is None
@@ -145,13 +133,13 @@ class HapticSession:
         self._switching = Switching(self._sources, self._playback, self._state, self.config.sample_rate_hz)
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
         self._mistakes = LikelyMistakes(self._state)
-        self._landings = Landings(self._state.graph, self._state.middle_m, self.config.control_period_s)
-        self._follows_landings, self._prepares_impacts = self.config.impacts, self.config.prepares_impacts
+        # No reference to the session itself: only the garbage collector could free such a cycle.
+        frames, level = self._hand_frames, self._sources.user
+        self._impacts = Impacts(self.config, self._state, self._playback, lambda: frames.field, lambda: level.factor)
         self._output = Output(sink, self.config)
         self._user: UserProfile | None = None
         if user is not None:
             self._use_profile(UserProfile.parse(user))
-        self._progress = _Progress()
 
     @property
     def config(self) -> SessionConfig:
@@ -219,22 +207,16 @@ class HapticSession:
         stamp = self._stamp(at_sample)
         if self._playback.take_prepared():
             self._hand_frames.loops_came()
-        if moved and self._follows_landings:
-            self._landings.begin(moved, stamp / self.config.sample_rate_hz)
+        if moved:
+            self._impacts.begin(moved, stamp)
         if moved or contacts is not None:
             self._hand_frames.apply(self._changed(moved or {}, contacts))
         if self._switching.advance(stamp):
             self._hand_frames.levels_changed()
-        frame, gained = self._hand_frames.frame(self.hands, felt, moved or (), is_paused=self._playback.is_paused)
+        frame, gained = self._hand_frames.frame(felt, moved or (), is_paused=self._playback.is_paused)
         if gained is not None:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
-        if self._follows_landings and (moved or self._landings.follow_any):
-            for landing in self._landings.look(moved or {}, stamp / self.config.sample_rate_hz):
-                strike = Strike(landing.onto, landing.point_m, landing.object_id, landing.speed_m_s)
-                self._impacts.land(strike, self._hand_frames.felt, self.hands, self._user, stamp)
-        if self._prepares_impacts:
-            self._impacts.expect(felt)
-        self._progress.n_updates += 1
+        self._impacts.follow(moved, felt, self._hands, self._user, stamp)
         self._output.feed(frame)
         if felt:
             self._mistakes.in_sources(self._sources.ids)
@@ -267,7 +249,7 @@ class HapticSession:
             self._state.require(with_object)
         strike = given_strike(object_id, point_m, with_object, speed_m_s, impulse_n_s)
         self._mistakes.in_strike(object_id, strike.point_m)
-        return self._impacts.strike(strike, self._hand_frames.felt, self.hands, self._user, self._now)
+        return self._impacts.strike(strike, self._hand_frames.felt, self.hands, self._user, self._playback.now)
 
     def add(
         self,
@@ -333,7 +315,7 @@ class HapticSession:
         Raises: UnknownObject; SessionError: it is the last object.
         """
         self._state.require(object_id)
-        if len(self._state.objects) == 1 and object_id in self._state.objects:
+        if len(self._state.objects) == 1:
             raise SessionError(f"{object_id!r} is the last object of the scene; add another one before removing it.")
         self._take_out(object_id)
 
@@ -342,7 +324,7 @@ class HapticSession:
         is_source = object_id in self._sources
         if is_source:
             self._sources.remove(object_id)
-            self._playback.change_rows(self._sources.rows(), self._now)
+            self._playback.change_rows(self._sources.rows(), self._playback.now)
         self._hand_frames.apply(change, sources_changed=is_source)
 
     def add_hand(self, name: str) -> None:
@@ -358,7 +340,7 @@ class HapticSession:
 
     def remove_hand(self, name: str) -> None:
         """Remove an output, but not the last; see `add_hand`. Raises: SessionError: an unknown hand."""
-        self._require_hand(name)
+        require_hand(name, self.hands)
         hands = checks.names("hands", [hand for hand in self.hands if hand != name])
         with self._output.reopened_for(hands, self._mixed):
             self._playback.remove_hand(self.hands.index(name))
@@ -378,7 +360,7 @@ class HapticSession:
         Before the first update with the source, it is switched without a start or stop: a scene may begin with it off.
         Raises: UnknownObject: not a source; SessionError: it has no such state, or the gain is out of bounds.
         """
-        is_other_state = self._switching.set(source_id, self._now, on, state, gain_db, mute)
+        is_other_state = self._switching.set(source_id, on, state, gain_db, mute)
         self._hand_frames.levels_changed(is_other_state)
 
     def set_user(
@@ -403,9 +385,9 @@ class HapticSession:
 
         The fade begins now, or at the position of the last update if that is later.
         """
-        self._playback.pause(self._now)
+        self._playback.pause()
         self._hand_frames.levels_changed()
-        self._output.show(self._hand_frames.silence(self.hands))
+        self._output.show(self._hand_frames.silence())
 
     def resume(self) -> None:
         """Continue all loops from where they stopped; felt from the next update on."""
@@ -417,7 +399,7 @@ class HapticSession:
 
         Raises: SessionError: an unknown hand.
         """
-        self._require_hand(hand)
+        require_hand(hand, self.hands)
         explained = self._hand_frames.explain(hand, is_paused=self._playback.is_paused)
         felt = sorted(
             map(self._with_running, explained.felt), key=lambda one: -(one.gain_db + one.level_db + one.running_db)
@@ -428,12 +410,11 @@ class HapticSession:
 
     def _with_running(self, felt: FeltSource) -> FeltSource:
         """Add the amplitude of a start or stop that is under way."""
-        if self._sources[felt.source_id].passing is None:
+        source = self._sources[felt.source_id]
+        if source.passing is None:
             return felt
-        return felt.while_passing(
-            self._switching.running(felt.source_id, self._now).amplitude,
-            is_start=self._sources[felt.source_id].is_running,
-        )
+        amplitude = self._switching.running(felt.source_id).amplitude
+        return felt.while_passing(amplitude, is_start=source.is_running)
 
     @property
     def is_current(self) -> bool:
@@ -455,9 +436,9 @@ class HapticSession:
         """
         given = given_touches(touches)
         touches_by_hand(given, self.hands, self._state)
-        if self._switching.follow_contacts(self._now):
+        if self._switching.follow_contacts(self._playback.now):
             self._hand_frames.levels_changed()
-        return self._hand_frames.would_feel(self.hands, given)
+        return self._hand_frames.would_feel(given)
 
     @overload
     def plot_felt(
@@ -498,7 +479,7 @@ class HapticSession:
 
         self._sources.info(source_id)
         hand = self.hands[0] if hand is None else hand
-        self._require_hand(hand)
+        require_hand(hand, self.hands)
         column, is_current = self.source_ids.index(source_id), self.is_current
 
         def gains_of(touches: Sequence[Touch]) -> NDArray[np.float64]:
@@ -599,7 +580,7 @@ class HapticSession:
     @property
     def stats(self) -> SessionStats:
         """Counters since the session was made, such as updates, impacts and skipped work."""
-        stats = self._hand_frames.stats(self._progress.n_updates, self._playback.rows_not_mixed)
+        stats = self._hand_frames.stats(self._playback.rows_not_mixed)
         return replace(
             stats,
             touches_off_surface=self._mistakes.n_touches_off,
@@ -614,18 +595,8 @@ class HapticSession:
         return self._output.safety_stats
 
     @cached_property
-    def _impacts(self) -> Impacts:
-        # No reference to the session itself: only the garbage collector could free such a cycle.
-        frames, level = self._hand_frames, self._sources.user
-        return Impacts(self.config, self._state, self._playback, lambda: frames.field, lambda: level.factor)
-
-    @cached_property
     def _whole(self) -> WholeFrames:
         return WholeFrames(self.config.sample_rate_hz)
-
-    @property
-    def _now(self) -> int:
-        return max(self._playback.position, self._progress.last_stamp)
 
     def _put(
         self,
@@ -639,9 +610,8 @@ class HapticSession:
         change = self._state.add(item, haptics)
         self._shapes.order([item.geometry.mesh])
         if loops:
-            gain_db, muted = corrected.gain_db(its_id), corrected.is_muted(its_id)
-            self._sources.add(item.id, loops, haptics, gain_db, is_muted=muted)
-            self._playback.change_rows(self._sources.rows(), self._now)
+            self._sources.add(item.id, loops, haptics, _level(corrected, its_id))
+            self._playback.change_rows(self._sources.rows(), self._playback.now)
         self._hand_frames.apply(change, sources_changed=bool(loops))
 
     def _exchange(self, object_id: str) -> None:
@@ -655,11 +625,12 @@ class HapticSession:
             self._hand_frames.levels_changed(is_other_state=True)
 
     def _stamp(self, at_sample: int | None) -> int:
-        now = self._now
+        playback = self._playback
+        stamp = playback.now
         if at_sample is not None:
-            now = given_stamp(at_sample, self._progress.last_stamp, self._playback.position, self.config.sample_rate_hz)
-        self._progress.last_stamp = now
-        return now
+            stamp = given_stamp(at_sample, playback.updated_at, playback.position, self.config.sample_rate_hz)
+        playback.updated_at = stamp
+        return stamp
 
     def _use_profile(self, user: UserProfile) -> None:
         self._user = user
@@ -671,13 +642,9 @@ class HapticSession:
 
     def _use_hands(self, hands: tuple[str, ...]) -> None:
         self._hands = hands
+        self._hand_frames.use_hands(hands)
         if self._user is not None:
             self._use_profile(self._user)
-        self._hand_frames.levels_changed()
-
-    def _require_hand(self, hand: object) -> None:
-        if not isinstance(hand, str) or hand not in self.hands:
-            raise SessionError(unknown_hand(hand, self.hands))
 
     def _changed(self, moved: Mapping[str, Pose], contacts: Sequence[Contact] | None) -> ContactChange:
         self._mistakes.in_moves(moved)
@@ -693,3 +660,7 @@ class HapticSession:
                 self._state.require(object_id)
                 require_pose(object_id, pose)
             raise
+
+
+def _level(bundle: HapticBundle, object_id: str) -> Level:
+    return Level(bundle.gain_db(object_id), bundle.is_muted(object_id))

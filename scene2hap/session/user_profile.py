@@ -21,7 +21,6 @@ from pydantic import Field, field_validator
 from scene2hap import checks
 from scene2hap.errors import ConfigError, unwritable
 from scene2hap.haptics import Bands
-from scene2hap.session.frame import Gains
 from scene2hap.session.hand_gains import HandGains
 from scene2hap.session.mix.sources import LoopRow
 from scene2hap.settings import Settings
@@ -142,7 +141,7 @@ class PersonalGains:
         """Multiply the gains of all hands by the share of each hand and band."""
         shares, full = self.shares, gained.full
         mixed = gained.mixed * (shares if gained.columns is None else shares[:, list(gained.columns)])
-        return HandGains(lambda: _given(full) * shares, mixed, gained.columns)
+        return HandGains(lambda: full() * shares, mixed, gained.columns)
 
 
 def _frequencies_hz(rows: Sequence[LoopRow], bands: Bands) -> NDArray[np.float64]:
@@ -156,8 +155,3 @@ def _frequencies_hz(rows: Sequence[LoopRow], bands: Bands) -> NDArray[np.float64
         return own
     low, high = widths.T
     return np.where((own >= low) & (own < high), own, np.sqrt(low * high))
-
-
-def _given(gains: object) -> Gains:
-    found: Gains = gains() if callable(gains) else gains  # type: ignore[assignment]  # a function or the gains
-    return found

@@ -10,8 +10,7 @@ import numpy as np
 
 from scene2hap.checks import described
 from scene2hap.devices import SINKS
-from scene2hap.devices.clocked_sink import has_clock
-from scene2hap.devices.protocol import ActuatorSink, Block, SinkEvent, SinkFormat, SinkStats
+from scene2hap.devices.protocol import ActuatorSink, Block, SinkEvent, SinkFormat, SinkStats, has_clock
 from scene2hap.plugins import lacking
 
 

@@ -9,6 +9,7 @@ All little-endian. `count` is sample frames in PCM and payload bytes elsewhere; 
 from __future__ import annotations
 
 import struct
+import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import IntEnum
@@ -17,7 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.devices.framing import cobs
-from scene2hap.devices.framing.crc import with_crc32, without_crc32
 from scene2hap.devices.protocol import Block
 from scene2hap.errors import DeviceError
 
@@ -26,7 +26,8 @@ MAX_PAYLOAD = 1024
 """Most bytes of a payload, so that a frame fits into one Ethernet datagram and into a small board's memory."""
 
 _HEADER = struct.Struct("<BBHBBHI")
-_LONGEST_ENCODED = cobs.LONGEST_RUN + MAX_PAYLOAD + _HEADER.size + 4
+_CRC_SIZE = 4
+_LONGEST_ENCODED = cobs.LONGEST_RUN + MAX_PAYLOAD + _HEADER.size + _CRC_SIZE
 _FULL_SCALE = 32767.0
 
 
@@ -96,6 +97,11 @@ def pcm(block: Block, *, sequence: int, time_us: int = 0, format: SampleFormat =
     return Frame(FrameType.PCM, sequence, block.shape[1], format, len(block), time_us, payload)
 
 
+def clock_us(time_s: float) -> int:
+    """Return a time [s] as the `time_us` of a frame."""
+    return int(time_s * 1e6) % 2**32
+
+
 def to_int16(block: Block) -> bytes:
     """Convert samples to 16-bit integers: 1.0 becomes 32767, rounded to nearest and clipped; NaN becomes silence."""
     within = np.clip(np.nan_to_num(block, nan=0.0), -1.0, 1.0)
@@ -108,6 +114,17 @@ def samples(frame: Frame) -> Block:
     raw = np.frombuffer(frame.payload, dtype=frame.format.dtype).astype(np.float32)
     scale = np.float32(_FULL_SCALE) if frame.format is SampleFormat.INT16 else np.float32(1.0)
     return (raw / scale).reshape(frame.count, frame.channels)
+
+
+def with_crc32(data: bytes) -> bytes:
+    """Append the CRC-32 of bytes, little-endian (reflected 0x04C11DB7, as in Ethernet and zip)."""
+    return data + zlib.crc32(data).to_bytes(_CRC_SIZE, "little")
+
+
+def without_crc32(data: bytes) -> bytes | None:
+    """Return the bytes without their checksum, or None if the checksum is wrong."""
+    body = data[:-_CRC_SIZE]
+    return body if data == with_crc32(body) else None
 
 
 def to_datagram(frame: Frame) -> bytes:

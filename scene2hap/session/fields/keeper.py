@@ -27,7 +27,7 @@ from scene2hap.scene.scene_warning import warn_of
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.fields.prepared import FieldInUse, LastField
-from scene2hap.session.fields.worker import Desk, Prepared, Sign, Situation, put_to_work
+from scene2hap.session.fields.worker import FieldWorker, Prepared, Sign, Situation
 from scene2hap.session.reach import Reach
 from scene2hap.session.scene_state import SceneState
 
@@ -60,15 +60,15 @@ class FieldKeeper:
         is_background: bool,
         skips_unreachable: bool,
     ) -> None:
-        self._desk = Desk(model, bands)
+        self._worker = FieldWorker(model, bands)
         self._state = state
         # For the fields that the keeper holds: only the garbage collector could free a cycle of strong references, and
         # a game may switch it off, or call `gc.freeze`.
         self._weak: FieldKeeper = weakref.proxy(self)
         self._is_background, self._skips_unreachable = is_background, skips_unreachable
-        self._worker: Thread | None = None
-        self._is_stranger_touched = self._is_expectant = False
-        self._heard: tuple[FieldInUse, tuple[str, ...], Reach] | None = None
+        self._thread: Thread | None = None
+        self._must_expect = self._is_expectant = False
+        self._method: tuple[FieldInUse, tuple[str, ...], Reach] | None = None
         self._n_answered = self._n_ordered = self._n_put = 0
         self.n_prepared: int = 0
         self.n_failed: int = 0
@@ -103,7 +103,7 @@ class FieldKeeper:
         before, self._requested = self._requested, self._situation(self._requested.number + 1, excitations)
         before.outdated_at_s = self._requested.requested_at_s
         if not self._is_background:
-            self._use(self._desk.prepare(self._requested))
+            self._use(self._worker.prepare(self._requested))
 
     def order(self) -> None:
         """Pass the newest request to the worker. Call it at the end of an update, so as not to slow down the update."""
@@ -112,19 +112,19 @@ class FieldKeeper:
         if self._n_ordered != self._requested.number:
             self._n_ordered = self._requested.number
             self._put(self._requested)
-        elif self._is_stranger_touched:
-            self.in_use.expected.update(object_id for object_id, _ in self._desk.touched)
+        elif self._must_expect:
+            self.in_use.expected.update(object_id for object_id, _ in self._worker.touched)
             self._put(Sign.TOUCHED)
-        self._is_stranger_touched = False
+        self._must_expect = False
 
     def method(self, source_ids: tuple[str, ...], reach: Reach) -> FieldInUse:
         """The field in use, for these sources and connected objects. It switches to each newer field by itself."""
-        if self._heard is not None and self._heard[1:] == (source_ids, reach):
-            return self._heard[0]
+        if self._method is not None and self._method[1:] == (source_ids, reach):
+            return self._method[0]
         keeper = self._weak
-        gained = self._in_use(source_ids, reach, lambda touched: keeper._note_touched(touched))
-        self._heard = (gained, source_ids, reach)
-        return gained
+        field = self._in_use(source_ids, reach, lambda touched: keeper._note_touched(touched))
+        self._method = (field, source_ids, reach)
+        return field
 
     def unnoted(self, source_ids: tuple[str, ...], reach: Reach, n_points: int) -> FieldInUse:
         """See `method`; for points that no hand touches, so that the worker does not prepare their objects."""
@@ -133,20 +133,20 @@ class FieldKeeper:
     def _in_use(
         self, source_ids: tuple[str, ...], reach: Reach, note: Callable[[Sequence[TouchedPoint]], None]
     ) -> FieldInUse:
-        now, n_bands, keeper = self._state.graph.pose, self._desk.bands.n_bands, self._weak
+        now, n_bands, keeper = self._state.graph.pose, self._worker.bands.n_bands, self._weak
 
         def as_now(one: Prepared) -> LastField:
             then, situation = one.situation.poses, one.situation
             return LastField(one.field, then, now, source_ids, n_bands, reach, lambda: situation is keeper._requested)
 
-        gained = FieldInUse(source_ids, as_now, note)
-        gained.use(self.in_use, self._whole)
-        return gained
+        field = FieldInUse(source_ids, as_now, note)
+        field.use(self.in_use, self._whole)
+        return field
 
     def take(self) -> bool:
         """Use the newest prepared field. Returns false if there is no newer one."""
         try:
-            answer = self._desk.answers.pop()
+            answer = self._worker.answers.pop()
         except IndexError:
             return False
         if isinstance(answer, Prepared):
@@ -164,13 +164,13 @@ class FieldKeeper:
         """
         self.order()
         while True:
-            self._desk.has_answered.clear()
+            self._worker.has_answered.clear()
             self.take()
-            if self._n_answered == self._requested.number and self._desk.n_followed == self._n_put:
+            if self._n_answered == self._requested.number and self._worker.n_followed == self._n_put:
                 return True
             if end.left_s == 0:
                 return False
-            self._desk.has_answered.wait(end.left_s)
+            self._worker.has_answered.wait(end.left_s)
 
     def _situation(self, number: int, excitations: Sequence[Excitation]) -> Situation:
         now, state = time.monotonic(), self._state
@@ -180,22 +180,22 @@ class FieldKeeper:
     def _use(self, found: Prepared) -> None:
         situation, before = found.situation, self.in_use.situation
         if self._is_background:
-            self._desk.spent.append(self.in_use)
+            self._worker.spent.append(self.in_use)
         self.in_use, self._is_expectant = found, isinstance(found.field, ExpectantField)
         if found.covers is None:
             self._whole, self._n_answered = found, situation.number
-        if self._heard is not None:
-            self._heard[0].use(found, self._whole)
+        if self._method is not None:
+            self._method[0].use(found, self._whole)
         self.n_prepared += 1
         self._is_refused = False
         if situation is not before:
             self.latency_s = time.monotonic() - situation.requested_at_s
 
     def _note_touched(self, touched: Sequence[TouchedPoint]) -> None:
-        self._desk.touched = touched
+        self._worker.touched = touched
         if self._is_expectant:
             expected = self.in_use.expected
-            self._is_stranger_touched = not expected.issuperset([object_id for object_id, _ in touched])
+            self._must_expect = not expected.issuperset([object_id for object_id, _ in touched])
 
     def _note(self, problem: Exception) -> None:
         self.n_failed += 1
@@ -208,11 +208,11 @@ class FieldKeeper:
         self._is_refused = True
 
     def _put(self, order: Situation | Sign) -> None:
-        if self._worker is None or not self._worker.is_alive():
-            self._worker = put_to_work(self._desk, self.in_use)
-            weakref.finalize(self, self._desk.orders.put, Sign.END)
+        if self._thread is None or not self._thread.is_alive():
+            self._thread = self._worker.start(self.in_use)
+            weakref.finalize(self, self._worker.orders.put, Sign.END)
         self._n_put += 1
-        self._desk.orders.put(order)
+        self._worker.orders.put(order)
 
 
 class LiveKeeper:

@@ -85,10 +85,10 @@ class Prepared:
 
 
 @dataclass(eq=False)
-class Desk:
-    """The data that a keeper shares with its worker.
+class FieldWorker:
+    """Prepares fields, on the keeper's thread or on its own; see `start`.
 
-    The worker has no reference to the keeper, so that an unused keeper can be freed.
+    It has no reference to the keeper, so that an unused keeper can be freed.
     """
 
     model: PropagationModel
@@ -108,8 +108,11 @@ class Desk:
         field = self.model.prepare(network, situation.excitations, self.bands)
         return Prepared(checked_field(self.model, field, situation.excitations), situation, covers)
 
-    def work(self, newest: Prepared) -> None:
-        """Carry out orders until `Sign.END`; `newest` is the field that is in use."""
+    def start(self, newest: Prepared) -> Thread:
+        """Start a thread that carries out orders until `Sign.END`; `newest` is the field that is in use."""
+        return start_worker(partial(self._work, newest), "propagation", partial(self.orders.put, Sign.END))
+
+    def _work(self, newest: Prepared) -> None:
         is_whole, (order, n_orders) = True, self._newest(self.orders.get())
         while order is not Sign.END:
             if isinstance(order, Situation):
@@ -148,8 +151,3 @@ class Desk:
         if Sign.END in waiting:
             return Sign.END, len(waiting)
         return next((one for one in reversed(waiting) if isinstance(one, Situation)), order), len(waiting)
-
-
-def put_to_work(desk: Desk, newest: Prepared) -> Thread:
-    """Start a worker thread for a desk; `newest` is the field that is in use."""
-    return start_worker(partial(desk.work, newest), "propagation", partial(desk.orders.put, Sign.END))

@@ -25,10 +25,12 @@ from scene2hap.errors import Scene2HapError
 from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.live import PointField, TouchedPoint
 from scene2hap.render.bursts import Samples, peak_of, wave_of
+from scene2hap.scene.pose import Pose
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.impacts.gains import Floats, Point, struck_later, struck_live
+from scene2hap.session.impacts.landings import Landings
 from scene2hap.session.mix.playback import Playback
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.user_profile import UserProfile
@@ -93,7 +95,7 @@ class Strike:
 
 
 class Impacts:
-    """Turns impacts into bursts of a session's mix.
+    """Finds landings, and turns impacts into bursts of a session's mix.
 
     Parameters: field : returns the field in use; user_factor : returns the level of all vibration [-].
     """
@@ -108,6 +110,7 @@ class Impacts:
     ) -> None:
         self._config, self._state, self._playback = config, state, playback
         self._field, self._user_factor = field, user_factor
+        self._landings = Landings(state.graph, state.middle_m, config.control_period_s) if config.impacts else None
         self._last: dict[tuple[str, str | None], int] = {}
         self._looked_at: object = None
         self._point_field: PointField | None = None
@@ -131,13 +134,29 @@ class Impacts:
             self._play(impact, burst, felt, hands, profile)
         return impact
 
-    def land(
-        self, strike: Strike, felt: Felt, hands: tuple[str, ...], profile: UserProfile | None, at_frame: int
+    def begin(self, moved: Mapping[str, Pose], at_frame: int) -> None:
+        """Look at the objects that an update is about to move. Call it before the contacts change."""
+        if self._landings is not None:
+            self._landings.begin(moved, at_frame / self._config.sample_rate_hz)
+
+    def follow(
+        self,
+        moved: Mapping[str, Pose] | None,
+        felt: Felt,
+        hands: tuple[str, ...],
+        profile: UserProfile | None,
+        at_frame: int,
     ) -> None:
-        """Play an impact as `strike` does, but return nothing, so that nothing is computed for a skipped impact."""
-        self.n_reported += 1
-        if self._is_admitted(strike, felt, at_frame):
-            self._play(*self._impact(strike, at_frame), felt, hands, profile)
+        """Play the landings of an update, and prepare for impacts around the touched objects. Call it in each one."""
+        if self._landings is not None and (moved or self._landings.follow_any):
+            for one in self._landings.look(moved or {}, at_frame / self._config.sample_rate_hz):
+                self.n_reported += 1
+                landing = Strike(one.onto, one.point_m, one.object_id, one.speed_m_s)
+                # Checked first, so that nothing is computed for a skipped impact.
+                if self._is_admitted(landing, felt, at_frame):
+                    self._play(*self._impact(landing, at_frame), felt, hands, profile)
+        if self._ahead is not None:
+            self._ahead.expect({touch.object_id for touches in felt.values() for touch in touches})
 
     def _impact(self, strike: Strike, at_frame: int) -> tuple[Impact, Burst]:
         struck = self._state.meeting(strike.object_id)
@@ -160,7 +179,7 @@ class Impacts:
         self, impact: Impact, burst: Burst, felt: Felt, hands: tuple[str, ...], profile: UserProfile | None
     ) -> None:
         at_frame, f = impact.at_sample, burst.frequencies_hz
-        channels = dict(zip(felt, (hands[i] for i in felt), strict=True))
+        channels = {i: hands[i] for i in felt}
         touched: dict[int, list[TouchedPoint]] = {i: [(x.object_id, x.point_m) for x in felt[i]] for i in felt}
 
         def sound(gains: Floats, begin: int, among: Collection[int]) -> None:
@@ -188,11 +207,6 @@ class Impacts:
                 sound(prepared(), at_frame, left)
             else:
                 self._order(prepared, lambda gains, begin: sound(gains, begin, left), at_frame)
-
-    def expect(self, felt: Felt) -> None:
-        """Prepare for impacts around the touched objects. Call it in every update."""
-        if self._ahead is not None:
-            self._ahead.expect({touch.object_id for touches in felt.values() for touch in touches})
 
     def _live(self) -> PointField | None:
         """The field in use if it is a `PointField`. Cached, since this check takes as long as a faint impact."""

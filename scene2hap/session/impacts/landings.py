@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -23,7 +24,7 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
 from scene2hap.scene.geometry import Vector, dot
 from scene2hap.scene.pose import Pose
-from scene2hap.session.impacts.motion_track import LEAST_TRAVEL_M, LEFT, MOST_STEPS, NOTHING, MotionTrack, in_world
+from scene2hap.session.impacts.motion_track import LEAST_TRAVEL_M, LEFT, MOST_STEPS, STILL, MotionTrack, in_world
 
 LEAST_SPEED_M_S = 0.1
 """A cup put down more slowly is as good as not felt, and trackers shake as fast."""
@@ -48,7 +49,7 @@ _LEAST_CHANGE = _SUDDEN * (LEAST_TRAVEL_M / MOST_STEPS) ** 2
 """Square of the smallest change of a step at a landing [m2]: the steps of a fall are not shorter."""
 _PLANE_POINTS, _LEAST_WIDTH_M, _FLAT = 3, 0.003, 0.1
 """Fewest points of a contact that span a plane, their least width, and their largest thickness relative to it."""
-_STILL = (0.0, 0.0, 0.0)
+_NOTHING: Mapping[str, Junction] = MappingProxyType({})
 
 
 class Landing(NamedTuple):
@@ -163,8 +164,8 @@ class Landings:
         return [one for one in found if (one.onto, one.object_id) not in met or one.object_id < one.onto]
 
     def _met(self, object_id: str) -> Mapping[str, Junction]:
-        """Return the present contacts of an object first, then those that ended in this step."""
-        near, beside = self._near.get(object_id, NOTHING), self._graph.beside.get(object_id, NOTHING)
+        """Return the present contacts of an object, and those that ended in this step."""
+        near, beside = self._near.get(object_id, _NOTHING), self._graph.beside.get(object_id, _NOTHING)
         if near.keys() <= beside.keys():
             return beside
         return {**beside, **{x: near[x] for x in near if x not in beside}}
@@ -175,12 +176,12 @@ class Landings:
         Parameters: steps_m : of all objects that moved in this update.
         """
         track = self._tracks[object_id]
-        beside = self._graph.beside.get(object_id, NOTHING)
+        beside = self._graph.beside.get(object_id, _NOTHING)
         for other in self._met(object_id):
-            theirs, their_m = self._tracks.get(other), _STILL
+            theirs, their_m = self._tracks.get(other), STILL
             if theirs is not None and theirs.steps[-1][0] == track.steps[-1][0]:
                 their_m = theirs.step_m
-            now = _difference(steps_m[object_id], steps_m.get(other, _STILL))
+            now = _difference(steps_m[object_id], steps_m.get(other, STILL))
             before = _difference(track.step_m, their_m)
             # Without a contact now, only an object that turned back may have met the other one.
             if (other in beside or dot(now, before) < 0) and _change(now, before) >= max(
@@ -190,15 +191,18 @@ class Landings:
         return False
 
     def _landing(self, object_id: str, track: MotionTrack, time_s: float) -> list[Landing]:
-        """The landing on the touched object that was approached the fastest; empty if there is none."""
+        """The landing on the touched object that was approached the fastest, of equal ones the first by id; empty if
+        there is none."""
         run = track.run()
         (first, begin_s), (before, before_s), (last, end_s) = run[0], run[-2], run[-1]
         best, most_m, turned_m, turns_m, now = None, LEAST_TRAVEL_M, 0.0, 0.0, self._n_updates
         # The step after a long frame is short, without being slow. The ratio is unknown if the clock stands still.
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
-        beside = self._graph.beside.get(object_id, NOTHING)
-        for other, junction in [(x, side) for x, whole in self._met(object_id).items() for side in _sides(whole)]:
+        beside, met = self._graph.beside.get(object_id, _NOTHING), self._met(object_id)
+        # The graph's order depends on the hashes of ids, which differ in each run of Python. Present contacts first.
+        others = sorted(met, key=lambda x: (x not in beside, x))
+        for other, junction in [(x, side) for x in others for side in _sides(met[x])]:
             if best is not None and other not in beside:
                 break
             point = _middle(junction)
@@ -262,7 +266,7 @@ class Landings:
         track = self._tracks[object_id]
         begin, end = track.pose_at(since), track.pose_at(until)
         if begin.rotation_xyzw == end.rotation_xyzw:
-            return _STILL
+            return STILL
         turn = end.rotation @ begin.rotation.T
         x, y, z = ((turn - turn.T) / 2 @ (np.array(point_m) - in_world(track.own_m, end))).tolist()
         return x, y, z
@@ -277,7 +281,7 @@ class Landings:
         """Travel between two updates [m] of the part of an object that is now at a point."""
         track, pose = self._tracks.get(object_id), self._graph.pose(object_id)
         if track is None:
-            return 0.0, 0.0, 0.0
+            return STILL
         begin, end = track.pose_at(since), pose if until >= self._n_updates else track.pose_at(until)
         if begin.rotation_xyzw == end.rotation_xyzw == pose.rotation_xyzw:
             (a, b, c), (x, y, z) = begin.position_m, end.position_m

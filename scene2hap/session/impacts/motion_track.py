@@ -8,10 +8,7 @@ two steps has passed without a further step.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from types import MappingProxyType
 
-from scene2hap.contact.junction import Junction
 from scene2hap.scene.geometry import Vector, dot
 from scene2hap.scene.pose import Pose
 
@@ -26,8 +23,8 @@ LONGEST_GAP_S, MOST_GAP = 0.12, 12
 GAP_DECAYS = 0.1
 """Decrease of the remembered gap with each step [updates]: at 60 Hz, physics at 50 Hz misses every sixth frame."""
 
-_ZERO = (0.0, 0.0, 0.0)
-NOTHING: Mapping[str, Junction] = MappingProxyType({})
+STILL: Vector = (0.0, 0.0, 0.0)
+"""The step of an object that does not move [m]."""
 
 
 class MotionTrack:
@@ -35,8 +32,8 @@ class MotionTrack:
 
     pose : the latest; middle_m : the middle of the box at this pose, in the world [m]; own_m : the same in the object's
     own frame [m]; steps : number of the update, time [s] and pose of each step; gap : updates from one step to the
-    next, the longest of late; stopped_m : the last step before a landing that no further step confirmed; goes_on : the
-    object did not land then, but paused.
+    next, the longest of late; stopped_m : the last step before a landing that no further step confirmed, None if one
+    did; goes_on : the object did not land then, but paused.
     """
 
     __slots__ = (
@@ -60,7 +57,7 @@ class MotionTrack:
         self.middle_m: Vector = in_world(own_m, pose)
         self.gap: float = 1.0
         self.goes_on: bool = False
-        self.stopped_m: Vector = _ZERO
+        self.stopped_m: Vector | None = None
         self.turn(update)
 
     def turn(self, update: int) -> None:
@@ -68,11 +65,11 @@ class MotionTrack:
         self.since: int = update
         self.n_steps: int = 0
         self.origin_m: Vector = self.middle_m
-        self.step_m: Vector = _ZERO
+        self.step_m: Vector = STILL
 
     def land(self, update: int) -> None:
         """Begin another motion after a landing, which the last step confirms or a missing one."""
-        stopped_m = _ZERO if self.steps[-1][0] == update else self.step_m
+        stopped_m = None if self.steps[-1][0] == update else self.step_m
         self.turn(update)
         self.stopped_m = stopped_m
 
@@ -121,8 +118,8 @@ class MotionTrack:
             if x * u + y * v + z * w <= 0:
                 stopped_m = self.stopped_m
                 self.turn(last)
-                self.goes_on = stopped_m is not _ZERO and dot(step_m, stopped_m) > LEFT * dot(stopped_m, stopped_m)
-        self.stopped_m = _ZERO
+                self.goes_on = stopped_m is not None and dot(step_m, stopped_m) > LEFT * dot(stopped_m, stopped_m)
+        self.stopped_m = None
         self.pose, self.middle_m, self.step_m = pose, middle_m, step_m
         self.n_steps += 1
         self.steps.append((update, time_s, pose))

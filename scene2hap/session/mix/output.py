@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 
 from scene2hap import checks
 from scene2hap.devices import SINKS
-from scene2hap.devices.clocked_sink import has_clock
 from scene2hap.devices.exclusive_use import claim_sink, give_back_sink
-from scene2hap.devices.protocol import ActuatorSink, Fill, SinkFormat
+from scene2hap.devices.protocol import ActuatorSink, Fill, SinkFormat, has_clock
 from scene2hap.errors import ConfigError, DeviceError, SessionError
 from scene2hap.render.safety import FADE_OUT_S, SafetyLayer, SafetyStats
 from scene2hap.session.config import SessionConfig

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from scene2hap.devices.protocol import Block
 from scene2hap.render.bursts import Bursts, PlannedBurst
 from scene2hap.render.limiter import soft_limit
-from scene2hap.render.loop_bank import SlotBank, position_s
+from scene2hap.render.loop_bank import Slot, SlotBank, position_s
 from scene2hap.render.mixer import Mixer
 from scene2hap.render.passage import Course, Passage, Running
 from scene2hap.session.config import MIN_RAMP_S, SessionConfig
@@ -115,10 +115,12 @@ class _Plan:
 
 @dataclass(eq=False)
 class _Place:
-    """Bank and slot of a loop; `free_at` is the frame at which a removed loop has faded."""
+    """Bank and slot of a row, and its peaks (2, n_bands), see `prepared_loops.peaks_of`; `free_at` is the frame at
+    which a removed row has faded."""
 
     bank: SlotBank
     slot: int
+    peaks: NDArray[np.float64]
     free_at: int = 0
 
 
@@ -132,8 +134,9 @@ class Playback:
         self._config = config
         self._tactile_rate_hz = min(config.tactile_rate_hz, config.sample_rate_hz)
         self._coming: dict[LoopRow, Future[PreparedLoop]] = {}
-        self._ready: dict[LoopRow, PreparedLoop] = {}
         self._position = 0
+        self.updated_at: int = 0
+        """The frame of the last update, which may be later than `position`."""
         self._paused_from: int | None = None
         self._frozen_at: int | None = None
         self._hands = list(range(n_hands))
@@ -161,6 +164,11 @@ class Playback:
         return self._position
 
     @property
+    def now(self) -> int:
+        """The next frame of `render`, or that of the last update if it is later: no change is earlier."""
+        return max(self._position, self.updated_at)
+
+    @property
     def is_paused(self) -> bool:
         """Whether the mix is paused: it fades, or has faded, to silence."""
         return self._paused_from is not None
@@ -179,14 +187,15 @@ class Playback:
         """Peaks (n_rows, 2, n_bands), see `prepared_loops.peaks_of`; 0 of loops that are still being prepared."""
         n_bands = self._config.bands.n_bands
         silent = np.zeros((2, n_bands))
-        found = [silent if row in self._coming else self._ready[row].peaks for row in rows]
+        found = [silent if row in self._coming else self._places[row].peaks for row in rows]
         return np.array(found, dtype=np.float32).reshape(len(rows), 2, n_bands)
 
     def take_prepared(self) -> bool:
         """Add the loops that are now prepared, silent until gains are set again. Returns false if there are none."""
         ready = [row for row, loop in self._coming.items() if loop.done()]
         for row in ready:
-            self._let_in(row, self._coming.pop(row).result(), len(ready))
+            loop = self._coming.pop(row).result()
+            self._let_in(row, loop.bank, loop.peaks, len(ready))
         return bool(ready)
 
     def wait(self, end: Deadline) -> bool:
@@ -248,10 +257,7 @@ class Playback:
         Loops that are not prepared yet are added by `take_prepared`, unless preparing is set to block.
         """
         wanted = set(rows)
-        gone_rows = [row for row in self._places if row not in wanted]
-        gone = [self._places.pop(row) for row in gone_rows]
-        for row in gone_rows:
-            del self._ready[row]
+        gone = [self._places.pop(row) for row in [*self._places] if row not in wanted]
         for place in gone:
             place.free_at = at_frame + self._fade_frames
             for mixer in self._mixers:
@@ -268,15 +274,15 @@ class Playback:
             if loop is None:
                 self._coming[row] = order(row.loop.tactile, bands, rate_hz)
             else:
-                self._let_in(row, loop, len(new))
+                self._let_in(row, loop.bank, loop.peaks, len(new))
 
     def _prepared(self, row: LoopRow) -> PreparedLoop:
         return prepare(row.loop.tactile, self._config.bands, self._tactile_rate_hz)
 
-    def _let_in(self, row: LoopRow, loop: PreparedLoop, n_wanted: int) -> None:
-        place = self._places[row] = self._free_place(n_wanted)
-        place.bank.slots[place.slot] = loop.bank
-        self._ready[row] = loop
+    def _let_in(self, row: LoopRow, content: Slot, peaks: NDArray[np.float64], n_wanted: int) -> None:
+        bank, slot = self._free_slot(n_wanted)
+        bank.slots[slot] = content
+        self._places[row] = _Place(bank, slot, peaks)
         self._routes.clear()
 
     def pass_over(
@@ -293,11 +299,11 @@ class Playback:
 
         Returns None if the other row is still being prepared.
         """
-        ready = self._ready.get(of)
-        if ready is None:
+        if of in self._coming:
             return None
-        passage = Passage(ready.bank, self._tactile(at_frame), lasts_s, course, since, after)
-        self._let_in(row, PreparedLoop(passage, ready.peaks), 1)
+        loop = self._prepared(of)
+        passage = Passage(loop.bank, self._tactile(at_frame), lasts_s, course, since, after)
+        self._let_in(row, passage, loop.peaks, 1)
         return passage
 
     def running(self, passage: Passage, at_frame: int) -> Running:
@@ -324,9 +330,10 @@ class Playback:
         self._mixers = [mixer for mixer in self._mixers if not set(mixer.hands).isdisjoint(self._hands)]
         self._plan = self._new_plan()
 
-    def pause(self, at_frame: int) -> None:
+    def pause(self) -> None:
         """Fade to silence, then stop the clock."""
         if self._paused_from is None:
+            at_frame = self.now
             for mixer in self._mixers:
                 mixer.silence(at_frame)
             if self._bursts is not None:
@@ -403,13 +410,13 @@ class Playback:
             place.bank.slots[place.slot] = None
         return is_over
 
-    def _free_place(self, n_wanted: int) -> _Place:
+    def _free_slot(self, n_wanted: int) -> tuple[SlotBank, int]:
         for bank in self._banks:
             if None in bank.slots:
-                return _Place(bank, bank.slots.index(None))
+                return bank, bank.slots.index(None)
         # Each new bank has as many slots as all before it, so that adding many loops one by one needs few mixers.
         bank = self._new_bank(max(n_wanted, len(self._places) // 2))
         self._banks.append(bank)
         self._mixers.append(MixerInstance(self._config, bank, tuple(self._hands), self._position))
         self._plan = self._new_plan()
-        return _Place(bank, 0)
+        return bank, 0

@@ -115,16 +115,13 @@ class Sources:
         object_id: str,
         loops: Mapping[str, HapticLoop],
         haptics: ObjectHaptics | None,
-        gain_db: float = 0.0,
-        *,
-        is_muted: bool = False,
+        level: Level | None = None,
     ) -> None:
         """Add a source with a loop for each of its states, at least one."""
         rows = {state: LoopRow(object_id, state, loop) for state, loop in loops.items()}
         inferred = {state.name: state for state in haptics.states} if haptics is not None else {}
         needs = {name: state.needs_contact for name, state in inferred.items()}
-        level = Level(gain_db, is_muted)
-        self._sources[object_id] = Source(rows, needs, next(iter(rows)), level=level, inferred=inferred)
+        self._sources[object_id] = Source(rows, needs, next(iter(rows)), level=level or Level(), inferred=inferred)
         self._list()
 
     def remove(self, object_id: str) -> None:

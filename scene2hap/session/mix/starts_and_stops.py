@@ -41,12 +41,10 @@ class Switching:
         self._needing: list[str] = []
         self._topology: int | None = None
 
-    def set(
-        self, source_id: str, now: int, on: bool | None, state: str | None, gain_db: float | None, mute: bool | None
-    ) -> bool:
+    def set(self, source_id: str, on: bool | None, state: str | None, gain_db: float | None, mute: bool | None) -> bool:
         """Set the arguments that are not None. A person who switches a source on, or to another state, begins a new
         on-time, unless the source is new. Returns true if this changed its state. Raises: see `Sources.set`."""
-        source = self._sources[source_id]
+        source, now = self._sources[source_id], self._playback.now
         was_running = source.is_running
         is_other_state = self._sources.set(source_id, on, state, gain_db, mute)
         if is_other_state:
@@ -88,7 +86,7 @@ class Switching:
     def follow_contacts(self, now: int) -> bool:
         """Start and stop sources that got or lost the contact that they need. Returns true if there are any."""
         if self._known is not self._sources.ids:
-            self._look_around(now)
+            self._follow_sources(now)
         topology = self._state.graph.topology
         if self._topology == topology:
             return False
@@ -102,12 +100,12 @@ class Switching:
             self._follow(source_id, source, was_running, now)
         return is_any
 
-    def running(self, source_id: str, now: int) -> Running:
+    def running(self, source_id: str) -> Running:
         """Speed and amplitude of a source that is on, or that still stops."""
         passing = self._passing.get(source_id)
-        return STEADY if passing is None else self._playback.running(passing.passage, now)
+        return STEADY if passing is None else self._playback.running(passing.passage, self._playback.now)
 
-    def _look_around(self, now: int) -> None:
+    def _follow_sources(self, now: int) -> None:
         """Update the stored data after sources were added or removed."""
         self._known, self._topology = self._sources.ids, None
         self._needing = [x for x in self._known if any(self._sources[x].needs.values())]

@@ -9,7 +9,6 @@ import pytest
 from hypothesis import given, strategies as st
 
 from scene2hap.devices.framing import cobs
-from scene2hap.devices.framing.crc import with_crc32, without_crc32
 from scene2hap.devices.framing.frames import (
     MAX_PAYLOAD,
     Frame,
@@ -23,6 +22,8 @@ from scene2hap.devices.framing.frames import (
     to_datagram,
     to_int16,
     to_wire,
+    with_crc32,
+    without_crc32,
 )
 from scene2hap.devices.framing.link_messages import Credit, DeviceFormat, Hello, is_newer
 from scene2hap.errors import DeviceError

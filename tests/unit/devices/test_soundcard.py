@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 from scene2hap.devices import SINKS, portaudio
-from scene2hap.devices.clocked_sink import has_clock
 from scene2hap.devices.memory import MemorySink
-from scene2hap.devices.protocol import ActuatorSink, SinkFormat
+from scene2hap.devices.protocol import ActuatorSink, SinkFormat, has_clock
 from scene2hap.devices.soundcard import SoundCardSink
 from scene2hap.errors import ConfigError, DeviceError, MissingExtra
 

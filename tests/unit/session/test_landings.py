@@ -87,6 +87,15 @@ def test_dropped_object_lands_once(height_m: float, period_s: float) -> None:
     assert found[0].point_m[1] == pytest.approx(0.7, abs=1e-3)
 
 
+@pytest.mark.parametrize("names", ["abcd", "efgh", "ijkl", "mnop", "qrst", "uvwx"])
+def test_object_that_lands_on_several_lands_on_the_first_by_id(names: str) -> None:
+    """The order of the graph's contacts depends on the hash seed, which differs in each run of Python."""
+    blocks = [box(name, (0.1, 0.5, 0.1), (0.3 * i, 0.25, 0)) for i, name in enumerate(names)]
+    graph = ContactGraph(scene(*blocks, box("tray", (1.4, 0.04, 0.2), (0.45, 0.82, 0))))
+    frames = [(i * PERIOD_S, {"tray": Pose((0.45, y, 0.0))}) for i, (_, y, _) in enumerate(fall(0.3, PERIOD_S, 0.52))]
+    assert [(one.object_id, one.onto) for one in landings_in(graph, frames)] == [("tray", names[0])]
+
+
 def test_object_lands_with_the_first_frame_at_rest() -> None:
     graph = room()
     landings = Landings(graph, _middle, PERIOD_S)
