@@ -33,7 +33,7 @@ TRACE = """
 import inspect, sys, threading
 from collections import Counter
 from pathlib import Path
-from scene2hap import HapticSession, Touch, bake, load_scene
+from scene2hap import HapticSession, SessionConfig, Touch, bake, load_scene
 from scene2hap.demo import kitchen_path
 from scene2hap.scene.pose import Pose
 import scene2hap
@@ -53,11 +53,13 @@ def watch(frame, event, _):
         importing[threading.get_ident()] -= is_import
 
 touch = Touch("left", "dining_table", (2.2, 0.74, 2.2))
+# Gains do not depend on impacts, which the first versions lacked.
+config = {"impacts": False} if "impacts" in SessionConfig.model_fields else {}
 here = bundle.snapshot.object("smartphone").pose
 threading.setprofile(watch)
 sys.setprofile(watch)
 phase = "made"
-session = HapticSession(bundle.snapshot, bundle)
+session = HapticSession(bundle.snapshot, bundle, config)
 phase = "first"
 session.update(touches=[touch])
 phase = "moved"
