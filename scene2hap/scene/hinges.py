@@ -38,6 +38,17 @@ def hinge_at(
     return Hinge(other.id, here, there)
 
 
+def welded_at(item: SceneObject, other: SceneObject) -> Hinge | None:
+    """Return the hinge of an object that is fixed to another, in the middle of the space that is in both their boxes;
+    None if the boxes are apart."""
+    corners, others = other.pose.to_own(item.pose.to_world(item.geometry.mesh.corners_m)), other.geometry.mesh.corners_m
+    low, high = np.maximum(corners.min(axis=0), others.min(axis=0)), np.minimum(corners.max(axis=0), others.max(axis=0))
+    if (low - high).max() >= HINGE_PLAY_M:
+        return None
+    middle = (low + high) / 2
+    return Hinge(other.id, item.pose.to_own(other.pose.to_world([middle]))[0].tolist(), middle.tolist())
+
+
 def _from_box(item: SceneObject, point: NDArray[np.float64]) -> float:
     """Return the distance of a point of an object's frame from its box, as a share of the box's diagonal."""
     corners = item.geometry.mesh.corners_m

@@ -20,7 +20,7 @@ from scene2hap.scene.files import HABITAT_SUFFIX, is_habitat, read_bytes, scene_
 from scene2hap.scene.grouping.empty_names import says_nothing
 from scene2hap.scene.grouping.groups import Grouping, group_objects, unique_ids
 from scene2hap.scene.grouping.object_maker import ObjectMaker
-from scene2hap.scene.hinges import hinge_at
+from scene2hap.scene.hinges import hinge_at, welded_at
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.looks.textures import TextureWarning
 from scene2hap.scene.objects import UpAxis, with_relative_heights
@@ -214,7 +214,9 @@ def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float
     for pivot in authored.pivots:
         item, other = by_id.get(pivot.name), by_id.get(pivot.on)
         if item is not None and other is not None:
-            by_id[item.id] = replace(item, hinge=hinge_at(item, other, pivot.anchor * unit_m, pivot.axis))
+            anchor = pivot.anchor
+            held = welded_at(item, other) if anchor is None else hinge_at(item, other, anchor * unit_m, pivot.axis)
+            by_id[item.id] = replace(item, hinge=held)
     objects = list(by_id.values())
     return SceneSnapshot(name, up_axis, with_relative_heights(objects, up_axis))
 

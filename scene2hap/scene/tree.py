@@ -115,13 +115,13 @@ class AuthoredNode:
 
 @dataclass(frozen=True, eq=False)
 class AuthoredPivot:
-    """A joint by which one node turns on another, both given by their names: a point (3,) of the axis in the scene's
-    unit, and the axis (3,), None for a ball."""
+    """A joint by which one node is held on another, both given by their names: a point (3,) of the axis in the scene's
+    unit, None if the node is fixed; and the axis (3,), None for a ball."""
 
     name: str
     on: str
-    anchor: NDArray[np.float64]
-    axis: NDArray[np.float64] | None
+    anchor: NDArray[np.float64] | None = None
+    axis: NDArray[np.float64] | None = None
 
 
 @dataclass(frozen=True)
@@ -129,7 +129,7 @@ class AuthoredScene:
     """The top nodes of a scene, with the file's axes and units.
 
     `unit_m` is None if the format does not define the unit, or if its files often declare a wrong one. `left_out` has a
-    sentence for each texture that could not be used. `pivots` are the joints about which objects turn on others.
+    sentence for each texture that could not be used. `pivots` are the joints by which objects hold others.
     """
 
     roots: tuple[AuthoredNode, ...]

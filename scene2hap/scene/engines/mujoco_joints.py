@@ -1,7 +1,8 @@
 """MuJoCo joints as hinges.
 
-A body with hinge or ball joints alone is held on the drawn body before it, if only welds lie between the two. Bodies
-that slide on others are found from geometry, since they touch along their rails.
+A body with hinge or ball joints alone is held on the drawn body before it, if only welds lie between the two. So is a
+body that is welded to one that moves, such as the hand of a robot. Contacts of bodies that slide on others are found
+from geometry, since they touch along their rails, as are those of bodies that are fixed to the world.
 
 Source: MuJoCo documentation (Google DeepMind), XML reference, `joint`; mjData: xanchor, xaxis.
 """
@@ -13,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from scene2hap.scene.hinges import hinge_at
+from scene2hap.scene.hinges import hinge_at, welded_at
 from scene2hap.scene.objects import Hinge, SceneObject
 
 _WORLD = 0
@@ -30,10 +31,14 @@ def hinges(model: Any, data: Any, of_body: Mapping[int, SceneObject], unit_m: fl
         first, n = int(model.body_jntadr[body]), int(model.body_jntnum[body])
         joints = range(first, first + n)
         other = of_body.get(_held_on(model, body, of_body))
-        if not n or other is None or not all(model.jnt_type[joint] in (_BALL, _HINGE) for joint in joints):
+        turns = all(model.jnt_type[joint] in (_BALL, _HINGE) for joint in joints)
+        if other is None or not turns or model.body_weldid[body] == _WORLD:
             continue
-        axis = np.array(data.xaxis[first]) if n == 1 and model.jnt_type[first] == _HINGE else None
-        hinge = hinge_at(item, other, data.xanchor[first] * unit_m, axis)
+        if n == 0:
+            hinge = welded_at(item, other)
+        else:
+            axis = np.array(data.xaxis[first]) if n == 1 and model.jnt_type[first] == _HINGE else None
+            hinge = hinge_at(item, other, data.xanchor[first] * unit_m, axis)
         if hinge is not None:
             found[item.id] = hinge
     return found

@@ -2,7 +2,7 @@
 
 1. Every link with geometry is an object. It has the link's name, and the pose of the link's frame with all joints at 0.
    Links with a fixed joint stay separate. A link without geometry is a frame, and no object. A link that turns on
-   another has a hinge.
+   another, or is fixed to a link that moves, has a hinge.
 2. The <visual> geometry of a link is drawn; its <collision> geometry only if it has no other.
 3. A mesh keeps its own materials. A mesh without materials, such as STL, and shapes such as boxes have the material of
    their <visual>. As in ROS, meshes are never rotated to another up axis, and COLLADA's unit counts.
@@ -168,13 +168,16 @@ class _Reader:
     def _pivots(
         self, nodes: dict[str, AuthoredNode], joints: dict[str, _Joint], frames: dict[str, Matrix]
     ) -> Iterator[AuthoredPivot]:
-        """Yield the joints by which links turn on others, also across links without geometry that are fixed."""
+        """Yield the joints by which links turn on others or are fixed to others that move, also across links without
+        geometry that are fixed."""
         for name, joint in joints.items():
-            if joint.kind not in ("revolute", "continuous"):
-                continue
             on = joint.on
             while not nodes[on].children and on in joints and joints[on].kind == "fixed":
                 on = joints[on].on
+            if joint.kind == "fixed" and _moves(on, joints):
+                yield AuthoredPivot(name, on)
+            if joint.kind not in ("revolute", "continuous"):
+                continue
             place = f"joint of link {name!r}: <axis>"
             row = joint.row.find("axis")
             axis = np.array([1.0, 0.0, 0.0] if row is None else _numbers(row, "xyz", place, 3, "1 0 0"))
@@ -282,6 +285,13 @@ class _Reader:
             roots = with_own_keys(scene.roots, str(path))
             self._meshes[path] = AuthoredNode("", np.diag([unit, unit, unit, 1.0]), (), roots)
         return self._meshes[path]
+
+
+def _moves(link: str, joints: dict[str, _Joint]) -> bool:
+    """Return True if a link moves against the first link of the file."""
+    while link in joints and joints[link].kind == "fixed":
+        link = joints[link].on
+    return link in joints
 
 
 def _origin(row: Element, place: str) -> Matrix:

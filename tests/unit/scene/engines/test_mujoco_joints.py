@@ -60,12 +60,28 @@ def test_hinges_and_balls_hold_at_their_pivots(elbow: float) -> None:
     scene = engine.snapshot(*arm(elbow))
     held = {item.id: item.hinge for item in scene.objects if item.hinge is not None}
     # Slides are found from geometry, the world holds nothing, and the pivot of `far` is 0.5 m from the sphere above.
-    assert {x: hinge.to for x, hinge in held.items()} == {"forearm": "post", "hand": "forearm"}
+    assert {x: hinge.to for x, hinge in held.items()} == {"forearm": "post", "hand": "forearm", "badge": "hand"}
     # Along the axis, both extend from 0.02 to 0.05 m: the post from -0.05 to 0.05, the forearm from 0.02 to 0.1.
     assert held["forearm"].point_m == pytest.approx((0.0, 0.035, 0.0), abs=1e-9)
     assert held["forearm"].other_point_m == pytest.approx((0.0, 0.035, 1.0), abs=1e-9)
     assert held["hand"].point_m == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
     assert held["hand"].other_point_m == pytest.approx((0.55, 0.06, 0.0), abs=1e-9)
+    # The badge is 1 mm above the hand: from 0.021 to 0.029 m, the hand up to 0.02 m. Fixed to the world, it has none.
+    assert held["badge"].other_point_m == pytest.approx((0.05, 0.0, 0.0205), abs=1e-9)
+    assert held["badge"].point_m == pytest.approx((0.0, 0.0, -0.0045), abs=1e-9)
+
+
+def test_bodies_that_are_welded_to_the_world_have_no_hinge() -> None:
+    text = """
+    <mujoco><worldbody>
+      <body name="stove"><geom type="box" size="0.3 0.3 0.4"/>
+        <body name="kettle" pos="0 0 0.5"><geom type="box" size="0.1 0.1 0.1"/></body>
+      </body>
+    </worldbody></mujoco>"""
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    assert [item.hinge for item in engine.snapshot(model, data).objects] == [None, None]
 
 
 def test_links_stay_in_contact_however_they_turn() -> None:
