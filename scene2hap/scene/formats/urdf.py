@@ -2,7 +2,7 @@
 
 1. Every link with geometry is an object. It has the link's name, and the pose of the link's frame with all joints at 0.
    Links with a fixed joint stay separate. A link without geometry is a frame, and no object. A link that turns on
-   another, or is fixed to a link that moves, has a hinge.
+   one that moves, or is fixed to one, has a hinge.
 2. The <visual> geometry of a link is drawn; its <collision> geometry only if it has no other.
 3. A mesh keeps its own materials. A mesh without materials, such as STL, and shapes such as boxes have the material of
    their <visual>. As in ROS, meshes are never rotated to another up axis, and COLLADA's unit counts.
@@ -168,15 +168,17 @@ class _Reader:
     def _pivots(
         self, nodes: dict[str, AuthoredNode], joints: dict[str, _Joint], frames: dict[str, Matrix]
     ) -> Iterator[AuthoredPivot]:
-        """Yield the joints by which links turn on others or are fixed to others that move, also across links without
+        """Yield the joints by which links turn on others that move or are fixed to them, also across links without
         geometry that are fixed."""
         for name, joint in joints.items():
             on = joint.on
             while not nodes[on].children and on in joints and joints[on].kind == "fixed":
                 on = joints[on].on
-            if joint.kind == "fixed" and _moves(on, joints):
+            # A door may slam against what does not move, so that geometry finds its contacts.
+            if not _moves(on, joints) or joint.kind not in ("fixed", "revolute", "continuous"):
+                continue
+            if joint.kind == "fixed":
                 yield AuthoredPivot(name, on)
-            if joint.kind not in ("revolute", "continuous"):
                 continue
             place = f"joint of link {name!r}: <axis>"
             row = joint.row.find("axis")

@@ -465,20 +465,23 @@ def test_links_that_turn_on_others_have_hinges(home: Path) -> None:
     inside = (
         f"<link name='base'>{BOX}</link><link name='frame'/><link name='door'>{BOX}</link>"
         f"<link name='knob'>{BOX}</link><link name='drawer'>{BOX}</link><link name='plate'>{BOX}</link>"
-        f"<link name='foot'>{BOX}</link>"
+        f"<link name='foot'>{BOX}</link><link name='cart'>{BOX}</link><link name='lid'>{BOX}</link>"
+        + hangs("cart", "base", kind="prismatic")
+        + hangs("lid", "base", "xyz='0 0 1'", "revolute")
         + hangs("plate", "door", "xyz='0 0 0.9'")
         + hangs("foot", "base", "xyz='0 0 -1'")
-        + hangs("frame", "base", "xyz='0 1 0'")
+        + hangs("frame", "cart", "xyz='0 1 0'")
         + hangs("door", "frame", "xyz='0.5 0 0.25' rpy='0 0.3 0'", "revolute").replace("</j", "<axis xyz='0 2 0'/></j")
         + hangs("knob", "door", "xyz='0 0.5 0'", "continuous")
         + hangs("drawer", "base", "xyz='1 0 0'", "prismatic")
     )
     scene = loaded(home, inside)
     held = {item.id: item.hinge for item in scene.objects if item.hinge is not None}
-    assert {x: hinge.to for x, hinge in held.items()} == {"door": "base", "knob": "door", "plate": "door"}
-    # The plate's box and the door's have 0.1 m in common; the foot is fixed to the base, which does not move.
+    # Lid and foot are on the base, which does not move.
+    assert {x: hinge.to for x, hinge in held.items()} == {"door": "cart", "knob": "door", "plate": "door"}
+    # The plate's box and the door's have 0.1 m in common.
     assert held["plate"].other_point_m == pytest.approx((0.0, 0.0, 0.45), abs=1e-9)
-    # Along y, the base ends at 0.5 m and the door begins there; the knob turns about x, as without an axis.
+    # Along y, the cart ends at 0.5 m and the door begins there; the knob turns about x, as without an axis.
     assert held["door"].other_point_m == pytest.approx((0.5, 0.5, 0.25), abs=1e-9)
     assert held["door"].point_m == pytest.approx((0.0, -0.5, 0.0), abs=1e-9)
     assert held["knob"].point_m == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scene2hap import ContactGraph
+from scene2hap import ContactGraph, HapticSession, MuJoCoLink, Touch, bake
 from scene2hap.scene.engines import mujoco as engine
 
 mujoco: Any = pytest.importorskip("mujoco", reason="install the extra mujoco")
@@ -43,6 +43,7 @@ ARM = """
       </body>
     </body>
   </worldbody>
+  <contact><exclude body1="post" body2="forearm"/></contact>
 </mujoco>
 """
 
@@ -69,6 +70,58 @@ def test_hinges_and_balls_hold_at_their_pivots(elbow: float) -> None:
     # The badge is 1 mm above the hand: from 0.021 to 0.029 m, the hand up to 0.02 m. Fixed to the world, it has none.
     assert held["badge"].other_point_m == pytest.approx((0.05, 0.0, 0.0205), abs=1e-9)
     assert held["badge"].point_m == pytest.approx((0.0, 0.0, -0.0045), abs=1e-9)
+
+
+def test_what_may_collide_with_its_holder_is_found_from_geometry() -> None:
+    """MuJoCo lets a body collide with the one before it if that is fixed to the world: a door slams."""
+    text = ARM.replace("<exclude", "<!-- exclude").replace("/></contact>", "/ --></contact>")
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    assert {item.id for item in engine.snapshot(model, data).objects if item.hinge} == {"hand", "badge"}
+    apart = ARM.replace("<exclude", "<!-- exclude").replace("/></contact>", "/ --></contact>")
+    apart = apart.replace('pos="0.25 0.06 0"', 'pos="0.25 0.06 0" contype="0" conaffinity="0"')
+    model = mujoco.MjModel.from_xml_string(apart)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    assert {item.id for item in engine.snapshot(model, data).objects if item.hinge} == {"forearm", "hand", "badge"}
+
+
+CABINET = """
+<mujoco>
+  <worldbody>
+    <body name="wooden cabinet" pos="0 0 0.5">
+      <geom type="box" size="0.3 0.01 0.5" pos="0 0.29 0"/>
+      <geom type="box" size="0.01 0.3 0.5" pos="0.29 0 0"/>
+      <geom type="box" size="0.01 0.3 0.5" pos="-0.29 0 0"/>
+      <geom type="box" size="0.3 0.3 0.01" pos="0 0 0.49"/>
+      <body name="wooden door" pos="-0.31 -0.315 0">
+        <joint name="hinge" type="hinge" axis="0 0 1"/>
+        <geom type="box" size="0.3 0.01 0.5" pos="0.3 0 0" mass="3"/>
+      </body>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+
+
+@pytest.mark.parametrize("contacts", [None, "engine"])
+def test_the_slam_of_a_door_is_found(contacts: Any) -> None:
+    model = mujoco.MjModel.from_xml_string(CABINET)
+    data = mujoco.MjData(model)
+    data.joint("hinge").qpos = -0.8
+    mujoco.mj_forward(model, data)
+    scene = engine.snapshot(model, data, contacts=contacts)
+    with HapticSession(scene, bake(scene), sink="memory") as session:
+        link = MuJoCoLink(model, data, session, contacts=contacts)
+        for _ in range(40):
+            if data.joint("hinge").qpos[0] < -0.06:
+                data.joint("hinge").qvel = 2.5
+            for _ in range(8):
+                mujoco.mj_step(model, data)
+                link.collect()
+            link.update([Touch("left", "wooden cabinet", (0.3, 0.0, 0.6))])
+        assert session.stats.impacts == 1
 
 
 def test_bodies_that_are_welded_to_the_world_have_no_hinge() -> None:
@@ -102,8 +155,11 @@ def test_links_stay_in_contact_however_they_turn() -> None:
 def test_contacts_of_the_engine_have_the_pivots_too() -> None:
     model, data = arm(0.5)
     scene = engine.snapshot(model, data, contacts="engine")
-    # The engine finds contacts of the forearm with the post, which is fixed to the world, but none of the hand.
-    assert {("forearm", "post"), ("hand", "forearm")} <= {(one.a, one.b) for one in scene.contacts or ()}
+    assert {(one.a, one.b) for one in scene.contacts or ()} == {
+        ("forearm", "post"),
+        ("hand", "forearm"),
+        ("badge", "hand"),
+    }
     data.joint("elbow").qpos = 1.0
     mujoco.mj_forward(model, data)
     points = {one.a: one.point_m for one in engine.contacts(model, data) if one.normal is None}
