@@ -33,7 +33,7 @@ class BodyPair:
         self.a: Body = a
         self.b: Body = b
         self.space: FreeSpace = FreeSpace(*roles(a, b))
-        self.pivot_m: Triple | None = pivot_m(a, b)
+        self.pivot_m: Triple | None = None if a.hinge is None and b.hinge is None else pivot_m(a, b)
         # At least one of the two cannot rest on the other.
         rest = None if a.id in hung or self.pivot_m else rest_of(a, b, self.space)
         is_held = rest is not None or b.id in hung or self.pivot_m is not None
