@@ -52,7 +52,7 @@ class PhysicalModel:
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
         """Return a plate as a body for coupling up to `max_frequency_hz` [Hz]."""
-        raise NotImplementedError
+        raise NotImplementedError  # each model defines it
 
     @one_blas_thread
     def plate_transfer(
@@ -97,7 +97,7 @@ class PhysicalModel:
         self, plate: Plate, drive_m: NDArray[np.float64], points_m: NDArray[np.float64], f: NDArray[np.float64]
     ) -> NDArray[np.complex128]:
         """See `plate_receptance`, for valid points (1, 2) and (n_points, 2) [m]; at 0 Hz the limit."""
-        raise NotImplementedError
+        raise NotImplementedError  # not called for InfinitePlate, which has no edges
 
 
 def _is_held(plate: Plate, drive_m: NDArray[np.float64]) -> bool:

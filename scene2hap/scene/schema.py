@@ -68,7 +68,7 @@ _WORDS = {
     "SceneObject.relative_height_m": "Of the lowest point above the lowest point of the scene [m]. Leave it out to "
     "have it measured.",
     "SceneObject.mass_kg": "What the whole object weighs [kg]; null or missing if nobody knows.",
-    "SceneObject.hinge": "By which it is held on another object, if it turns on one.",
+    "SceneObject.hinge": "The pivot by which it is held on another object; null or missing if it is loose.",
     "SceneObject.material_names": "The authored names of its materials, that of the largest area first. "
     "Inference reads them.",
     "SceneObject.instance_key": "Equal for objects of equal mesh and materials; empty if unknown. "

@@ -38,7 +38,7 @@ from scene2hap.scene.surface.outline import Outline
 from scene2hap.scene.surface.plate_edge import windows
 from scene2hap.scene.surface.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
 from scene2hap.scene.surface.section import section_outline
-from scene2hap.scene.surface.winding import well_wound
+from scene2hap.scene.surface.winding import edge_keys, well_wound
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -266,7 +266,7 @@ def _rim_height(triangles: Floats, size: float) -> float:
     """Return the median height of the edges of triangles (3, 3, m) that have one triangle only; -inf without any."""
     corners = welded(triangles.reshape(3, -1).T, SAME_PLACE * size).reshape(3, -1)
     start, end = corners.ravel(), np.roll(corners, -1, axis=0).ravel()
-    keys = np.minimum(start, end) * (corners.max() + 1) + np.maximum(start, end)
+    keys = edge_keys(np.minimum(start, end), np.maximum(start, end))
     _, first, counts = np.unique(keys, return_index=True, return_counts=True)
     rim = first[(counts == 1) & (start != end)[first]]
     if not len(rim):

@@ -103,7 +103,7 @@ def test_triangles_of_hinged_objects_are_not_compared(monkeypatch: pytest.Monkey
     assert {"cabinet", "door"} not in met
 
 
-def test_walks_of_hinged_chains_equal_graphs_built_anew() -> None:
+def test_walks_of_hinged_chains_equal_rebuilt_graphs() -> None:
     """Links that turn, come off, come back, go and return: the poses alone decide."""
     for seed in range(12):
         draw = random.Random(seed)
@@ -139,8 +139,8 @@ def test_walks_of_hinged_chains_equal_graphs_built_anew() -> None:
                 scene = {x: moved[x] for x in scene}
                 out = {x: moved[x] for x in out}
                 graph.update({x: one.pose for x, one in scene.items()})
-            anew = ContactGraph(SceneSnapshot.build(list(scene.values())))
-            assert dict(graph.junctions) == dict(anew.junctions)
+            rebuilt = ContactGraph(SceneSnapshot.build(list(scene.values())))
+            assert dict(graph.junctions) == dict(rebuilt.junctions)
 
 
 def posed(links: list[SceneObject], draw: random.Random) -> list[SceneObject]:
