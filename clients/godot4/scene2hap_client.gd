@@ -1,9 +1,8 @@
 # Plays a session of a scene2hap bridge: sends the poses of nodes and the touches of hands, and receives gains.
 #
-# For Godot 4, and not tested in it: the client for Godot 3, from which this one is translated, is tested. Copy this
-# file and scene2hap_scene.gd into your project, and add one node of this script, best as an autoload. It polls in
-# `_process` and never waits for the network. README.md has an example, the page docs/bridge-protocol.md of scene2hap
-# the protocol.
+# For Godot 4, tested with 4.6. Copy this file and scene2hap_scene.gd into your project, and add one node of this script,
+# best as an autoload. It polls in `_process` and never waits for the network. README.md has an example, the page
+# docs/bridge-protocol.md of scene2hap the protocol.
 #
 #     open -> connected -> bake -> baked -> play -> ready_to_play -> send_frame ... gains_received -> leave -> left
 #
@@ -443,7 +442,8 @@ func _read_socket():
 	var state = _socket.get_ready_state()
 	if state == WebSocketPeer.STATE_OPEN and not _is_greeted:
 		_is_greeted = true
-		_socket.set_no_delay(true)
+		if not OS.has_feature("web"):  # browsers do not delay
+			_socket.set_no_delay(true)
 		var hello = {"type": "hello", "version": VERSION, "client": CLIENT}
 		if token != "":
 			hello["token"] = token

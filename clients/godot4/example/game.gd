@@ -1,4 +1,4 @@
-# The game of "Check a client" in docs/bridge-protocol.md: 30 nodes on a table, played over a bridge. Not tested yet.
+# The game of "Check a client" in docs/bridge-protocol.md: 30 nodes on a table, played over a bridge.
 #
 #     scene2hap bridge --check "godot --headless --path clients/godot4/example"
 #
@@ -239,5 +239,8 @@ static func _setting(key, otherwise):
 	return OS.get_environment(key) if OS.has_environment(key) else otherwise
 
 
+# The folder above, or this project, where an export has the file.
 static func _above(file):
+	if ResourceLoader.exists("res://" + file):
+		return "res://" + file
 	return ProjectSettings.globalize_path("res://").path_join("..").path_join(file)

@@ -1,4 +1,4 @@
-"""The client for Godot 3, run in the real engine without a window."""
+"""The clients for Godot 3 and 4, run in the real engines without a window."""
 
 import json
 import os
@@ -7,8 +7,10 @@ import shutil
 import socket
 import struct
 import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +19,10 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import ServerConnection, serve
 
+import godot4_web
 from bridge_clients import hex_of_page, start_server
+from browser_page import NEEDS_CHROMIUM, chromium
+from godot4_web import NEEDS_GODOT4, find_engine
 from scene2hap import SceneSnapshot
 from scene2hap.bridge import BridgeServer
 from scene2hap.bridge.frames import Frame, Gains, decode_frame, encode_gains
@@ -25,34 +30,73 @@ from scene2hap.testing.bridge_client import check_bridge_client
 from server_thread import running
 
 MAIN = Path(__file__).parents[3]
-CLIENT = MAIN / "clients" / "godot3"
-DRIVER = Path(__file__).parent / "godot3"
-GODOT = shutil.which("godot3-server")
-# Godot does not know the locale "C", and keeps user files below the home folder.
-ENVIRONMENT = {**os.environ, "LC_ALL": "C.UTF-8", "CLIENT": str(CLIENT)}
-
-pytestmark = pytest.mark.skipif(
-    GODOT is None, reason="no godot3-server; on Debian: apt-get install --no-install-recommends godot3-server"
-)
+NEEDS_GODOT3 = "needs godot3-server: apt-get install --no-install-recommends godot3-server"
 
 
-def godot(*arguments: str, **environment: str) -> str:
-    """Run Godot. Returns its standard output, without its warnings."""
-    run = subprocess.run(
-        [str(GODOT), *arguments],
-        env={**ENVIRONMENT, **environment},
-        capture_output=True,
-        timeout=180,
-        check=False,
-    )
-    assert run.returncode == 0, run.stderr.decode()
-    assert b"SCRIPT ERROR" not in run.stderr, run.stderr.decode()
-    return run.stdout.decode()
+@dataclass(frozen=True)
+class Godot:
+    """An engine, the client for it, and the project with the scenarios."""
+
+    version: int
+    command: tuple[str, ...]
+    environment: dict[str, str]
+
+    @property
+    def client(self) -> Path:
+        return MAIN / "clients" / f"godot{self.version}"
+
+    @property
+    def driver(self) -> Path:
+        return Path(__file__).parent / f"godot{self.version}"
+
+    def started(self, project: Path, **environment: str) -> subprocess.Popen[str]:
+        return subprocess.Popen(
+            [*self.command, "--path", str(project)],
+            env={**os.environ, **self.environment, **environment},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+
+    def run(self, project: Path, **environment: str) -> str:
+        """Run a project. Returns its standard output, without its warnings."""
+        with self.started(project, **environment) as game:
+            try:
+                said, errors = game.communicate(timeout=180)
+            finally:
+                game.kill()
+        assert game.returncode == 0, errors
+        assert "SCRIPT ERROR" not in errors, errors
+        return said
+
+    def drive(self, scenario: str, **environment: str) -> list[dict[str, Any]]:
+        """Run a scenario of driver.gd. Returns its events."""
+        return events_of(self.run(self.driver, SCENARIO=scenario, **environment))
 
 
-def drive(scenario: str, **environment: str) -> list[dict[str, Any]]:
-    """Run a scenario of godot3/driver.gd. Returns its events."""
-    return events_of(godot("--path", str(DRIVER), "--script", "res://driver.gd", SCENARIO=scenario, **environment))
+@pytest.fixture(scope="session")
+def godot3() -> Godot:
+    program = shutil.which("godot3-server")
+    if program is None:
+        pytest.skip(NEEDS_GODOT3)
+    # Godot does not know the locale "C", and keeps user files below the home folder.
+    return Godot(3, (program,), {"LC_ALL": "C.UTF-8", "CLIENT": str(MAIN / "clients" / "godot3")})
+
+
+@pytest.fixture(scope="session")
+def godot4(tmp_path_factory: pytest.TempPathFactory) -> Godot:
+    pytest.importorskip("playwright.sync_api", reason=NEEDS_CHROMIUM)
+    engine = find_engine(tmp_path_factory.mktemp("godot4")) if chromium() else None
+    if engine is None:
+        pytest.skip(NEEDS_GODOT4)
+    environment = {"SCENE2HAP_GODOT4": str(engine), "CLIENT": str(MAIN / "clients" / "godot4")}
+    return Godot(4, (sys.executable, godot4_web.__file__), environment)
+
+
+@pytest.fixture(params=["godot3", "godot4"])
+def godot(request: pytest.FixtureRequest) -> Godot:
+    found: Godot = request.getfixturevalue(request.param)
+    return found
 
 
 def events_of(said: str) -> list[dict[str, Any]]:
@@ -63,32 +107,29 @@ def values(events: list[dict[str, Any]], name: str) -> list[list[Any]]:
     return [one["values"] for one in events if one["event"] == name]
 
 
-def test_frames_and_gains_equal_the_examples_of_the_page() -> None:
-    lines = godot("--path", str(CLIENT / "example"), SCENE2HAP_SELF_TEST="1").splitlines()
+def test_frames_and_gains_equal_the_examples_of_the_page(godot: Godot) -> None:
+    lines = godot.run(godot.client / "example", SCENE2HAP_SELF_TEST="1").splitlines()
     assert f"frame {hex_of_page('A frame in hexadecimal')}" in lines
     assert f"of {hex_of_page('Gains that answer it')}" in lines
-    assert lines[-5:] == ["read True", "intensities 0.125 0", "gains 0.5 0", "cut False", "stale 0 0"]
+    plain = [line.lower().replace("0.0", "0") for line in lines[-5:]]  # Godot 3 prints True and 0, Godot 4 true and 0.0
+    assert plain == ["read true", "intensities 0.125 0", "gains 0.5 0", "cut false", "stale 0 0"]
 
 
-def test_godot_client_plays_the_reference_game() -> None:
-    found = check_bridge_client([str(GODOT), "--path", str(CLIENT / "example")], environment={"LC_ALL": "C.UTF-8"})
-    assert found.n_frames == 600
+def test_godot_client_plays_the_reference_game(godot: Godot) -> None:
+    command = [*godot.command, "--path", str(godot.client / "example")]
+    n_frames = 600 if godot.version == 3 else 240  # a browser gives 60 frames per second
+    found = check_bridge_client(command, n_frames=n_frames, environment=godot.environment)
+    assert found.n_frames == n_frames
     assert found.n_resumed == 1
     assert found.worst < 1e-9  # the error of nine printed digits of a float below 1
 
 
-def test_godot_client_continues_after_a_server_restart(tmp_path: Path) -> None:
+def test_godot_client_continues_after_a_server_restart(godot: Godot, tmp_path: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
     out, server = tmp_path / "gains.csv", start_server(port)
     settings = {"SCENE2HAP_URL": f"ws://127.0.0.1:{port}/", "SCENE2HAP_FRAMES": "60", "SCENE2HAP_RATE_HZ": "60"}
-    game = subprocess.Popen(
-        [str(GODOT), "--path", str(CLIENT / "example")],
-        env={**ENVIRONMENT, **settings, "SCENE2HAP_OUT": str(out), "SCENE2HAP_TELL_AT": "5"},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-    )
+    game = godot.started(godot.client / "example", **settings, SCENE2HAP_OUT=str(out), SCENE2HAP_TELL_AT="5")
     try:
         assert game.stdout is not None
         line = ""
@@ -108,24 +149,24 @@ def test_godot_client_continues_after_a_server_restart(tmp_path: Path) -> None:
     assert sequences == [*range(1, 61)]
 
 
-def test_a_wrong_token_is_an_error_that_does_not_show_it(bridge: Callable[..., BridgeServer]) -> None:
+def test_a_wrong_token_is_an_error_that_does_not_show_it(godot: Godot, bridge: Callable[..., BridgeServer]) -> None:
     server = bridge(token="the right one")
-    said = drive("refused", SCENE2HAP_URL=server.url, SCENE2HAP_TOKEN="another")
-    ((kind, message, request),) = values(said, "error")
-    assert (kind, request) == ("BridgeError", 0)
-    assert "token" in message
+    said = godot.drive("refused", SCENE2HAP_URL=server.url, SCENE2HAP_TOKEN="another")
+    if godot.version == 3:  # Godot 4 drops what is unread when the connection closes
+        ((kind, message, request),) = values(said, "error")
+        assert (kind, request) == ("BridgeError", 0)
+        assert "token" in message
     ((reason,),) = values(said, "lost")  # only once, since another attempt would be refused too
     assert "4003" in reason
     assert "another" not in json.dumps(said)
 
 
-def test_client_reports_a_missing_server_and_connects_later() -> None:
+def test_client_reports_a_missing_server_and_connects_later(godot: Godot) -> None:
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
 
-    command = [str(GODOT), "--path", str(DRIVER), "--script", "res://driver.gd"]
-    environment = {**ENVIRONMENT, "SCENARIO": "waits", "SCENE2HAP_URL": f"ws://127.0.0.1:{port}/"}
-    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) as game:
+    settings = {"SCENARIO": "waits", "SCENE2HAP_URL": f"ws://127.0.0.1:{port}/"}
+    with godot.started(godot.driver, **settings) as game:
         try:
             assert game.stdout is not None
             before = next(line for line in game.stdout if '"lost"' in line)
@@ -140,8 +181,8 @@ def test_client_reports_a_missing_server_and_connects_later() -> None:
     assert answer["re"] == request
 
 
-def test_client_supports_every_session_request(bridge: Callable[..., BridgeServer]) -> None:
-    said = drive("tour", SCENE2HAP_URL=bridge().url)
+def test_client_supports_every_session_request(godot: Godot, bridge: Callable[..., BridgeServer]) -> None:
+    said = godot.drive("tour", SCENE2HAP_URL=bridge().url)
     answers = dict(values(said, "answered"))
     after = {work: rest for work, *rest in values(said, "after")}
 
@@ -169,22 +210,22 @@ def test_client_supports_every_session_request(bridge: Callable[..., BridgeServe
     assert values(said, "playing") == [[False, 0]]
 
 
-def test_another_client_watches(bridge: Callable[..., BridgeServer]) -> None:
-    said = drive("watches", SCENE2HAP_URL=bridge().url)
+def test_another_client_watches(godot: Godot, bridge: Callable[..., BridgeServer]) -> None:
+    said = godot.drive("watches", SCENE2HAP_URL=bridge().url)
     assert values(said, "watched") == [[pytest.approx(1.0), True, 0], [0.0, True, 0]]
     assert values(said, "state_changed") == [["waiting"]]
     assert not values(said, "error")
 
 
-def test_the_example_of_the_page_runs(bridge: Callable[..., BridgeServer], tmp_path: Path) -> None:
-    page = (CLIENT / "README.md").read_text(encoding="utf-8")
+def test_the_example_of_the_page_runs(godot: Godot, bridge: Callable[..., BridgeServer], tmp_path: Path) -> None:
+    page = (godot.client / "README.md").read_text(encoding="utf-8")
     script = page.split("```gdscript\n")[1].split("```")[0]
     assert "ws://127.0.0.1:7862/" in script
-    for file in (*CLIENT.glob("*.gd"), *DRIVER.iterdir()):
+    for file in (*godot.client.glob("*.gd"), *godot.driver.iterdir()):
         shutil.copy(file, tmp_path)
     (tmp_path / "level.gd").write_text(script.replace("ws://127.0.0.1:7862/", bridge().url), encoding="utf-8")
-    said = godot("--path", str(tmp_path), "--script", "res://driver.gd", SCENARIO="readme")
-    ((intensity, right, left),) = values(events_of(said), "felt")
+    said = events_of(godot.run(tmp_path, SCENARIO="readme"))
+    ((intensity, right, left),) = values(said, "felt")
     assert 0.0 < intensity < 1.0
     assert 0.0 < right < 1.0  # through the table
     assert left == 0.0
@@ -256,7 +297,7 @@ def gains_of(sequence: int, *, layout: int = 1, intensity: float = 0.25, flags: 
     return encode_gains(Gains(layout, sequence, skipped, 0.0, flags, np.float32([intensity, 0.0]), gains))
 
 
-def test_unresponsive_server_gets_only_the_newest_frames() -> None:
+def test_unresponsive_server_gets_only_the_newest_frames(godot: Godot) -> None:
     frames: list[Frame] = []
 
     def handle(ws: ServerConnection) -> None:
@@ -265,9 +306,9 @@ def test_unresponsive_server_gets_only_the_newest_frames() -> None:
             frames.append(next_frame(ws))
 
     with scripted(handle) as url:
-        said = drive("flood", SCENE2HAP_URL=url)
+        said = godot.drive("flood", SCENE2HAP_URL=url)
     ((n, n_sent, n_replaced),) = values(said, "counted")
-    assert n > 200
+    assert n > 50  # in a browser 60 frames come in this second
     # 16 frames at once, then one each quarter of a second.
     assert 18 <= len(frames) <= 21
     assert n_sent == len(frames)
@@ -275,12 +316,12 @@ def test_unresponsive_server_gets_only_the_newest_frames() -> None:
     sequences = [frame.sequence for frame in frames]
     assert sequences[:16] == [*range(1, 17)]
     steps = np.diff(sequences[15:])
-    assert (steps > 20).all()  # the frames between were not sent
+    assert (steps > n / 6).all()  # the frames between were not sent
     for frame in frames:  # each frame has the pose of its time
         assert frame.poses[0, 0] == frame.sequence - 1
 
 
-def test_acknowledged_poses_are_not_sent_again() -> None:
+def test_acknowledged_poses_are_not_sent_again(godot: Godot) -> None:
     n_poses = []
 
     def handle(ws: ServerConnection) -> None:
@@ -298,13 +339,13 @@ def test_acknowledged_poses_are_not_sent_again() -> None:
         ws.send(gains_of(6))
 
     with scripted(handle) as url:
-        said = drive("rest", SCENE2HAP_URL=url)
+        said = godot.drive("rest", SCENE2HAP_URL=url)
     assert n_poses == [1, 0, 0, 0, 0]
     assert [one for (one,) in values(said, "gains_received")] == [1, 2, 3, 4, 5, 6]
     assert len(values(said, "warned")) == 1
 
 
-def test_poses_are_repeated_while_the_server_skips_their_frame() -> None:
+def test_poses_are_repeated_while_the_server_skips_their_frame(godot: Godot) -> None:
     frames: list[Frame] = []
 
     def handle(ws: ServerConnection) -> None:
@@ -316,11 +357,11 @@ def test_poses_are_repeated_while_the_server_skips_their_frame() -> None:
             ws.send(gains_of(frames[-1].sequence, skipped=1))
 
     with scripted(handle) as url:
-        drive("skips", SCENE2HAP_URL=url)
+        godot.drive("skips", SCENE2HAP_URL=url)
     assert [frame.poses[:, 0].tolist() for frame in frames] == [[0], [1], [1], []]
 
 
-def test_outdated_gains_become_zero_and_gains_of_other_layouts_are_ignored() -> None:
+def test_outdated_gains_become_zero_and_gains_of_other_layouts_are_ignored(godot: Godot) -> None:
     def handle(ws: ServerConnection) -> None:
         begin(ws)
         ws.send(gains_of(next_frame(ws).sequence, flags=3, skipped=5))
@@ -328,17 +369,17 @@ def test_outdated_gains_become_zero_and_gains_of_other_layouts_are_ignored() -> 
         ws.recv(10)
 
     with scripted(handle) as url:
-        said = drive("gains", SCENE2HAP_URL=url)
+        said = godot.drive("gains", SCENE2HAP_URL=url)
     first, second = values(said, "now")
     assert first == [0.25, 0.75, 0.75, 0.0, True, True, 5]
     assert second == [0.25, 0.75]
     assert values(said, "later") == [[0.0, 0.0]]
 
 
-def test_requests_carry_all_of_their_values_exactly() -> None:
+def test_requests_carry_all_of_their_values_exactly(godot: Godot) -> None:
     heard: list[dict[str, Any]] = []
     with scripted(lambda ws: answer_all(ws, heard)) as url:
-        said = drive("requests", SCENE2HAP_URL=url)
+        said = godot.drive("requests", SCENE2HAP_URL=url)
     (sent,) = values(said, "sent")
     assert [one["id"] for one in heard[: len(sent)]] == sent
     assert len({*sent}) == len(sent)
@@ -378,7 +419,7 @@ def test_requests_carry_all_of_their_values_exactly() -> None:
     assert len(refused) == 6  # of 70 requests, 64 may wait
 
 
-def test_a_freed_node_keeps_its_pose_and_any_name_is_found() -> None:
+def test_a_freed_node_keeps_its_pose_and_any_name_is_found(godot: Godot) -> None:
     frames: list[Frame] = []
     names = ["\U0001f600", "phone"]
 
@@ -392,7 +433,7 @@ def test_a_freed_node_keeps_its_pose_and_any_name_is_found() -> None:
         ws.recv(10)
 
     with scripted(handle) as url:
-        said = drive("freed", SCENE2HAP_URL=url)
+        said = godot.drive("freed", SCENE2HAP_URL=url)
     assert values(said, "knows") == [[True, False]]
     assert [frame.layout for frame in frames] == [1, 1, 2, 3]
     first, second, third, fourth = frames
@@ -409,8 +450,6 @@ def test_a_freed_node_keeps_its_pose_and_any_name_is_found() -> None:
 
 
 def test_the_client_for_godot_4_has_the_same_interface() -> None:
-    """Only the interface is compared, since there is no Godot 4 to run the client."""
-
     def interface(client: str) -> list[str]:
         text = (MAIN / "clients" / client / "scene2hap_client.gd").read_text(encoding="utf-8")
         return re.findall(r"^(?:signal|static func|func|var|const) (?!_)\w+", text, re.MULTILINE)
@@ -426,8 +465,8 @@ def test_the_client_for_godot_4_has_the_same_interface() -> None:
 # ---- Scenes ----
 
 
-def test_nodes_become_closed_meshes_and_boxes() -> None:
-    said = godot("--path", str(DRIVER), "--script", "res://driver.gd", SCENARIO="scenes")
+def test_nodes_become_closed_meshes_and_boxes(godot: Godot) -> None:
+    said = godot.run(godot.driver, SCENARIO="scenes")
     scene = SceneSnapshot.from_json(said[said.index('{"format"') :])
     rotation = turned(0.3, 0.5, -0.2)
     assert len(scene.objects) == 9

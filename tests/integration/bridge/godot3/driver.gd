@@ -1,5 +1,5 @@
 # Runs one scenario, named by SCENARIO, with the client of the folder CLIENT, and prints each event as a line of JSON.
-extends SceneTree
+extends Node
 
 var Client = load(OS.get_environment("CLIENT") + "/scene2hap_client.gd")
 var Scene = load(OS.get_environment("CLIENT") + "/scene2hap_scene.gd")
@@ -7,10 +7,10 @@ var hap = Client.new()
 var node = Spatial.new()
 
 
-func _init():
+func _ready():
 	OS.low_processor_usage_mode_sleep_usec = 200
-	get_root().add_child(hap)
-	get_root().add_child(node)
+	add_child(hap)
+	add_child(node)
 	var n_values = {
 		"connected": 1, "progressed": 1, "baked": 2, "ready_to_play": 1, "order_changed": 0, "gains_received": 1,
 		"impact": 1, "state_changed": 1, "answered": 2, "warned": 1, "error": 3, "lost": 1, "left": 0,
@@ -59,10 +59,10 @@ func flood():
 		node.translation.x = n
 		n += 1
 		hap.send_frame()
-		yield(self, "idle_frame")
+		yield(get_tree(), "idle_frame")
 		OS.delay_usec(700)
 	say("counted", [n, hap.frames_sent, hap.frames_replaced])
-	quit()
+	get_tree().quit()
 
 
 # Ten frames in which nothing moves, each after what the server says.
@@ -74,7 +74,7 @@ func rest():
 	for i in range(6):
 		hap.send_frame(0.1 * i)
 		yield(hap, "gains_received")
-	quit()
+	get_tree().quit()
 
 
 # A node moves once, in the second of four frames; gains come for the first and the third.
@@ -91,7 +91,7 @@ func skips():
 	yield(hap, "gains_received")
 	hap.send_frame(0.4)
 	yield(hap, "gains_received")
-	quit()
+	get_tree().quit()
 
 
 # What gains say, now and 0.15 s later.
@@ -109,9 +109,9 @@ func gains():
 	say("now", [hap.intensity("left"), hap.gain("right", "phone")])
 	var begin = OS.get_ticks_msec()
 	while OS.get_ticks_msec() - begin < 150:
-		yield(self, "idle_frame")
+		yield(get_tree(), "idle_frame")
 	say("later", [hap.intensity("left"), hap.gain("right", "phone")])
-	quit()
+	get_tree().quit()
 
 
 # All requests, with values that JSON makes difficult.
@@ -140,18 +140,18 @@ func requests():
 	say("sent", sent)
 	var begin = OS.get_ticks_msec()
 	while hap._pending.size() > 0 and OS.get_ticks_msec() - begin < 2000:
-		yield(self, "idle_frame")
+		yield(get_tree(), "idle_frame")
 	for i in range(70):
 		hap.pause()
-	yield(self, "idle_frame")
-	quit()
+	yield(get_tree(), "idle_frame")
+	get_tree().quit()
 
 
 # A node that is freed keeps its pose; ids beyond U+FFFF are found.
 func freed():
 	open()
 	var phone = Spatial.new()
-	get_root().add_child(phone)
+	add_child(phone)
 	phone.translation = Vector3(1, 2, 3)
 	hap.track("😀", phone)
 	hap.track("phone", node)
@@ -169,8 +169,8 @@ func freed():
 	yield(hap, "order_changed")
 	hap.send_frame(0.3)
 	for i in range(20):
-		yield(self, "idle_frame")
-	quit()
+		yield(get_tree(), "idle_frame")
+	get_tree().quit()
 
 
 # All that a game does with a session of a real bridge.
@@ -208,7 +208,7 @@ func tour():
 	hap.leave()
 	yield(hap, "left")
 	say("playing", [hap.is_playing(), hap.send_frame(9.0)])
-	quit()
+	get_tree().quit()
 
 
 # Another client watches the session.
@@ -220,7 +220,7 @@ func watches():
 	hap.play({"bundle": "desk.bundle", "use_sink": false})
 	yield(hap, "ready_to_play")
 	var other = Client.new()
-	get_root().add_child(other)
+	add_child(other)
 	other.connect("state_changed", self, "_on_1", ["state_changed"])
 	other.open(OS.get_environment("SCENE2HAP_URL"))
 	other.watch(hap.session)
@@ -231,9 +231,9 @@ func watches():
 	hap.close()
 	yield(other, "state_changed")
 	for i in range(20):
-		yield(self, "idle_frame")
+		yield(get_tree(), "idle_frame")
 	say("watched", [other.gain("left", "phone"), other.is_playing(), 0])
-	quit()
+	get_tree().quit()
 
 
 func a_lamp():
@@ -241,7 +241,7 @@ func a_lamp():
 	lamp.mesh = CubeMesh.new()
 	lamp.mesh.size = Vector3(0.1, 0.2, 0.1)
 	lamp.translation = Vector3(-0.1, 0.82, 0.2)
-	get_root().add_child(lamp)
+	add_child(lamp)
 	return Scene.object_of(lamp, "lamp", "Desk lamp", true)
 
 
@@ -251,8 +251,8 @@ func refused():
 	yield(hap, "lost")
 	var begin = OS.get_ticks_msec()
 	while OS.get_ticks_msec() - begin < 600:
-		yield(self, "idle_frame")
-	quit()
+		yield(get_tree(), "idle_frame")
+	get_tree().quit()
 
 
 # A game that waits, and asks for something before it is connected.
@@ -260,7 +260,7 @@ func waits():
 	open()
 	hap.stats()
 	yield(hap, "answered")
-	quit()
+	get_tree().quit()
 
 
 # Without a server: writes nodes as scene JSON.
@@ -275,7 +275,7 @@ func scenes():
 	var objects = []
 	for row in [["plain", Vector3(1, 1, 1)], ["scaled", Vector3(2, 1, 0.5)], ["mirrored", Vector3(-1, 1, 1)]]:
 		var root = Spatial.new()
-		get_root().add_child(root)
+		add_child(root)
 		root.translation = Vector3(1, 2, 3)
 		root.rotation = Vector3(0.3, 0.5, -0.2)
 		for piece in [[prism, Vector3(-0.5, 0, 0)], [mesh, Vector3(0.5, 0, 0)]]:
@@ -292,7 +292,7 @@ func scenes():
 		objects.append(Scene.object_of(root, row[0] + " box", "Lamp", true))
 		objects.append(Scene.object_of(root.get_child(1), row[0] + " centred", "Lamp", true))
 	print(Client.json_text(Scene.scene_of("test", objects)))
-	quit()
+	get_tree().quit()
 
 
 # The script of README.md, as res://level.gd.
@@ -315,9 +315,9 @@ func readme():
 	hand.name = "RightHand"
 	hand.translation = Vector3(0.1, 0.72, 0)
 	level.add_child(hand)
-	get_root().add_child(level)
+	add_child(level)
 	yield(level.hap, "ready_to_play")
 	for i in range(20):
 		yield(level.hap, "gains_received")
 	say("felt", [level.hap.intensity("right"), level.hap.gain("right", "phone"), level.hap.gain("left", "phone")])
-	quit()
+	get_tree().quit()
