@@ -148,6 +148,7 @@ cdef class ContactPaths:
     cdef Py_ssize_t n_labels, room
     cdef Target* targets
     cdef Py_ssize_t n_targets
+    cdef Py_ssize_t* target_of  # index in `targets` of each source row, -1 if it is no target
     cdef double* found
 
     def __init__(self, dict price_per_m, dict rows, crossing_costs, max_hops):
@@ -157,13 +158,15 @@ cdef class ContactPaths:
         self.max_hops = min(max_hops, 1 << 30) if self.is_limited else 0
         self.objects = {}
         self.targets = <Target*>PyMem_Malloc((len(rows) + 1) * sizeof(Target))
+        self.target_of = <Py_ssize_t*>PyMem_Malloc((len(rows) + 1) * sizeof(Py_ssize_t))
         self.found = <double*>PyMem_Malloc((len(rows) + 1) * sizeof(double))
-        if self.targets == NULL or self.found == NULL:
+        if self.targets == NULL or self.target_of == NULL or self.found == NULL:
             raise MemoryError
 
     def __dealloc__(self):
         PyMem_Free(self.labels)
         PyMem_Free(self.targets)
+        PyMem_Free(self.target_of)
         PyMem_Free(self.found)
 
     # The network.
@@ -296,7 +299,7 @@ cdef class ContactPaths:
         self.search += 1
         self.n_labels = self.n_targets = 0
         for k in range(n):
-            self.found[k] = INFINITY
+            self.found[k], self.target_of[k] = INFINITY, -1
         for object_id, point in touched:
             at = self.rows.get(object_id)
             if at is not None:
@@ -320,6 +323,7 @@ cdef class ContactPaths:
                         if limits is not None:
                             limit = limits[row]
                         self.targets[self.n_targets] = Target(x.x, x.y, x.z, x.radius_m, limit, row)
+                        self.target_of[row] = self.n_targets
                         self.n_targets += 1
             self.follow()
         return [self.found[k] for k in range(n)]
@@ -353,17 +357,18 @@ cdef class ContactPaths:
         if here.search != self.search:
             here.search, here.n_entries = self.search, 0
         here.enter(at, cost, hops)
-        for i in range(self.n_targets):
+        for other in here.sources:
+            i = self.target_of[other.into.row]
+            if i < 0:
+                continue
             target = &self.targets[i]
-            for other in here.sources:
-                if other.into.row == target.row:
-                    for k in range(other.n):
-                        edge = &other.edges[k]
-                        further = cost + price * apart(at.x, at.y, at.z, edge.x, edge.y, edge.z) + edge.crossing_cost
-                        if further < self.found[target.row] and further <= target.at_most:
-                            self.found[target.row] = target.at_most = further
-                    break
-            limit = fmax(limit, target.at_most)
+            for k in range(other.n):
+                edge = &other.edges[k]
+                further = cost + price * apart(at.x, at.y, at.z, edge.x, edge.y, edge.z) + edge.crossing_cost
+                if further < self.found[target.row] and further <= target.at_most:
+                    self.found[target.row] = target.at_most = further
+        for i in range(self.n_targets):
+            limit = fmax(limit, self.targets[i].at_most)
         if self.is_limited:
             hops += 1
             if hops >= self.max_hops:
@@ -398,7 +403,10 @@ cdef class ContactPaths:
                 i += 1
             else:
                 self.n_targets -= 1
-                self.targets[i] = self.targets[self.n_targets]
+                self.target_of[self.targets[i].row] = -1
+                if i < self.n_targets:
+                    self.targets[i] = self.targets[self.n_targets]
+                    self.target_of[self.targets[i].row] = i
 
     cdef bint may_reach(self, Edge* at, double cost) noexcept:
         cdef Py_ssize_t i
