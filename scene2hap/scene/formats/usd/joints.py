@@ -62,6 +62,8 @@ def _joint(joint: Any, on: str, world_of: Callable[[Any], Matrix]) -> Joint:
         return Joint(on, motion)
     world = world_of(prim.GetStage().GetPrimAtPath(_target(joint, 0)))
     anchor = (world @ [*(value(joint.GetLocalPos0Attr()) or (0.0, 0.0, 0.0)), 1.0])[:3]
+    if not np.isfinite(anchor).all():
+        raise SceneFormatError(f"prim {prim.GetPath()} is at {anchor.tolist()}; every coordinate must be finite.")
     if not prim.IsA(UsdPhysics.RevoluteJoint):
         return Joint(on, motion, anchor)
     named = str(value(UsdPhysics.RevoluteJoint(prim).GetAxisAttr()))
@@ -69,7 +71,8 @@ def _joint(joint: Any, on: str, world_of: Callable[[Any], Matrix]) -> Joint:
         raise SceneFormatError(f"prim {prim.GetPath()} turns about the axis {named!r}; it must be X, Y or Z.")
     rotation = Gf.Rotation(Gf.Quatd(value(joint.GetLocalRot0Attr()) or Gf.Quatf(1.0)))
     axis = world[:3, :3] @ rotation.TransformDir(Gf.Vec3d(_AXES[named]))
-    return Joint(on, motion, anchor, axis / np.linalg.norm(axis))
+    length = np.linalg.norm(axis)  # 0 in a body that is scaled to a sheet
+    return Joint(on, motion, anchor, axis / length if length > 0 else None)
 
 
 def _motion(prim: Any) -> Motion:
@@ -91,9 +94,9 @@ def _locks(prim: Any, kind: str) -> bool:
 
 
 def _target(joint: Any, which: int) -> str:
-    """Return the path of the prim of `body0` or `body1`, "" without one."""
+    """Return the path of the prim of `body0` or `body1`, "" if there is none."""
     paths = (joint.GetBody1Rel() if which else joint.GetBody0Rel()).GetForwardedTargets()
-    return str(paths[0].GetPrimPath()) if paths else ""
+    return str(paths[0].GetPrimPath()) if paths and joint.GetPrim().GetStage().GetPrimAtPath(paths[0]) else ""
 
 
 def _body(path: str, bodies: Mapping[str, bool]) -> str:

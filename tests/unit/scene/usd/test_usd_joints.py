@@ -181,11 +181,32 @@ def test_general_joints_hold_if_they_lock_all_translations(tmp_path: Path, locke
     assert hinges(scene_of(fill, tmp_path)) == ({"thigh": "pelvis"} if held else {})
 
 
-def test_an_axis_that_is_none_is_refused(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("at", "axis", "why"),
+    [
+        ((0.0, 0.0, 0.0), "W", "turns about the axis 'W'; it must be X, Y or Z"),
+        ((np.nan, 0.0, 0.0), "X", r"is at \[nan.*; every coordinate must be finite"),
+    ],
+)
+def test_broken_joints_are_refused(tmp_path: Path, at: Point, axis: str, why: str) -> None:
     def fill(stage: Any) -> None:
         body(stage, "/a", (0.0, 0.0, 0.0))
         body(stage, "/b", (0.5, 0.0, 0.0))
-        joint(stage, "Revolute", "/a", "/b", axis="W")
+        joint(stage, "Revolute", "/a", "/b", at, axis)
 
-    with pytest.raises(SceneFormatError, match="turns about the axis 'W'; it must be X, Y or Z"):
+    with pytest.raises(SceneFormatError, match=why):
         scene_of(fill, tmp_path)
+
+
+def test_missing_prims_rings_and_flat_bodies_do_no_harm(tmp_path: Path) -> None:
+    def fill(stage: Any) -> None:
+        for name in "abcde":
+            made = body(stage, f"/{name}", (0.0, 0.0, 0.0))
+        made.AddScaleOp().Set((0.0, 1.0, 1.0))
+        joint(stage, "Revolute", "/a/nothing", "/b", axis="X")
+        joint(stage, "Revolute", "/b", "/b", axis="X")
+        joint(stage, "Fixed", "/c", "/d")
+        joint(stage, "Fixed", "/d", "/c")
+        joint(stage, "Revolute", "/e", "/d", axis="X")
+
+    assert hinges(scene_of(fill, tmp_path)) == {"d": "c", "e": "d"}
