@@ -4,7 +4,7 @@ Few links are named for what they are: a hand has a "palm", a Sawyer an arm of "
 
 1. A chain is a robot's if some of its names are those of robots' links and few name other objects: a lamp has arms too.
    The word "link" is added to each name, since a hinge makes an object a link: "right_wrist", "palm", "head_roll".
-2. So is a chain whose names say nothing at all, if its series is long.
+2. So is a chain whose names say nothing at all, if its series is as long as an arm's.
 3. In a robot's chain, a name that says nothing is a robot's link. A name of something else stays: a wheel, a camera.
 """
 
@@ -21,9 +21,9 @@ from scene2hap.llm.lexicon.table import Role
 _OUTNUMBER = 3
 """Names of robots' links for each name of another object, above which a chain is a robot's; assumed. Desk lamps have up
 to three arms."""
-_LONG_SERIES = 6
-"""Links of an arm that reaches any pose, one held on the other. Assumed: nothing else in a scene turns about so many
-joints in a row, but ropes and chains, which are mostly called so."""
+_SERIES_OF_AN_ARM = range(6, 13)
+"""Objects in an arm's longest series, each held on the one before; assumed. Six joints reach any pose. Nothing else has
+so many joints in a row, but ropes and chains, which have more or are called so."""
 
 # Assumed, below the confidence in names that say what an object is, and above that in unknown ones.
 _BY_NAMES, _BY_SERIES = 0.5, 0.3
@@ -59,7 +59,7 @@ def _links(chain_names: tuple[str, ...], n_in_series: int) -> tuple[str, ...] | 
         n_others = sum(role != "part" for role in map(_other_role, chain_names) if role is not None)
         return links if len(links) > _OUTNUMBER * n_others else None
     says_nothing = all(_other_role(name) is None for name in chain_names)
-    return () if says_nothing and n_in_series >= _LONG_SERIES else None
+    return () if says_nothing and n_in_series in _SERIES_OF_AN_ARM else None
 
 
 def _is_link(name: str) -> bool:

@@ -56,6 +56,8 @@ def test_a_long_series_that_names_nothing_else_is_an_arm() -> None:
     assert arm["link3"].confidence < in_chain(ROBOTS["Sawyer"])["right_l0"].confidence
     # A cabinet of which each part is called a link has many doors, but none hangs on another.
     assert {answer.object_category for answer in in_chain(names, n_in_series=2).values()} == {"unknown"}
+    rope = [f"seg_{i}" for i in range(40)]
+    assert {answer.object_category for answer in in_chain(rope, n_in_series=40).values()} == {"unknown"}
     cable = in_chain([*names, "cable"], n_in_series=8)
     assert {answer.object_category for name, answer in cable.items() if name != "cable"} == {"unknown"}
 
