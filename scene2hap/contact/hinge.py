@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 
 from scene2hap.contact.body import Body, apart_by
 from scene2hap.contact.geometry.vectors import Triple
-from scene2hap.scene.hinges import HINGE_PLAY_M
+from scene2hap.scene.hinges import HINGE_PLAY_M, firsts
 
 
 def are_hinged(x: Body, y: Body) -> bool:
@@ -63,9 +63,9 @@ class HungBodies:
             self._update(x)
         if self.on == before:
             return []
-        firsts, self._first = self._first, {x: self._first_of(x) for x in self.on}
-        ids = firsts.keys() | self._first.keys() | (before.keys() ^ self.on.keys())
-        return sorted(x for x in ids if x in self._bodies and firsts.get(x) != self._first.get(x))
+        past, self._first = self._first, firsts(self.on)
+        ids = past.keys() | self._first.keys() | (before.keys() ^ self.on.keys())
+        return sorted(x for x in ids if x in self._bodies and past.get(x) != self._first.get(x))
 
     def _update(self, x: str) -> None:
         self.on.pop(x, None)
@@ -73,11 +73,3 @@ class HungBodies:
         other = None if body is None or body.hinge is None else self._bodies.get(body.hinge.to)
         if body is not None and other is not None and pivot_m(body, other) is not None:
             self.on[x] = other.id
-
-    def _first_of(self, x: str) -> str:
-        passed: list[str] = []
-        while x in self.on and x not in passed:
-            passed.append(x)
-            x = self.on[x]
-        # Bodies that hang on each other have the least id of their ring.
-        return min(passed[passed.index(x) :]) if x in passed else x

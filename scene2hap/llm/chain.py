@@ -46,6 +46,7 @@ from scene2hap.llm.size_check import surface_size
 from scene2hap.materials import Material
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.copies import material_names
+from scene2hap.scene.hinges import chains
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.scene.surface import plate_sizes
@@ -159,6 +160,7 @@ class _Chain:
         self._scene = scene
         self._category = category
         self._graph = graph
+        self._chains = chains(scene.objects)
         self._questions = questions
         self._settings = settings
         self._materials: dict[str, asyncio.Task[Estimate]] = {}
@@ -225,7 +227,7 @@ class _Chain:
         """Return the facts and pictures of an object for the Object Analyzer."""
         length, width, thickness = item.size_m
         whole_length, whole_width, whole_height = item.whole_size_m(self._scene.up_axis)
-        facts = {
+        facts: dict[str, Any] = {
             "scene_category": self._category,
             "object_name": clean(item.name),
             "length_m": length,
@@ -239,6 +241,10 @@ class _Chain:
             "material_names": [clean(name) for name in material_names(item)],
             "neighbour_names": [clean(self._scene.object(other).name) for other in self._graph.neighbours(item.id)],
         }
+        chain = self._chains.get(item.id)
+        if chain is not None:
+            facts["chain_names"] = [clean(self._scene.object(each).name) for each in chain.ids]
+            facts["n_in_series"] = chain.n_in_series
         if not self._settings.share_scenes:
             return facts, item.images.together if item.images is not None else ()
         return of_any_scene(facts, item.name), item.images.isolated if item.images is not None else ()

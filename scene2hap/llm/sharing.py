@@ -8,6 +8,7 @@ from typing import Any
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.llm.quoting import clean
 from scene2hap.scene.copies import copy_key, name_words
+from scene2hap.scene.hinges import chains
 from scene2hap.scene.objects import VERTICAL, Contact
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -22,15 +23,17 @@ def copies(scene: SceneSnapshot, graph: ContactGraph) -> dict[str, str]:
 
     Objects of one kind are copies (`scene.copies`). Supports are compared by kind. So six handles on six equal
     drawers have one representative, but a pan on the stove and a pan on the table have two. Of an object without a
-    support, the kinds of all objects that touch it are compared.
+    support, the kinds of all objects that touch it are compared. So are those of objects that hinges join.
     """
     kinds = {item.id: copy_key(item) for item in scene.objects}
     supports = _supports(scene, graph.contacts)
-    first: dict[tuple[Hashable, frozenset[Hashable]], str] = {}
+    chained = {x: frozenset(kinds[each] for each in chain.ids) for x, chain in chains(scene.objects).items()}
+    first: dict[Hashable, str] = {}
     standing_for = {}
     for item in scene.objects:
         on = supports.get(item.id) or graph.neighbours(item.id)
-        standing_for[item.id] = first.setdefault((kinds[item.id], frozenset(kinds[other] for other in on)), item.id)
+        key = (kinds[item.id], frozenset(kinds[other] for other in on), chained.get(item.id))
+        standing_for[item.id] = first.setdefault(key, item.id)
     return standing_for
 
 

@@ -1,6 +1,9 @@
-"""The play of hinges, and hinges from the joints of engines and files, which give any point of the axis."""
+"""The play of hinges, hinges from the joints of engines and files, which give any point of the axis, and chains."""
 
 from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,6 +50,56 @@ def welded_at(item: SceneObject, other: SceneObject) -> Hinge | None:
         return None
     middle = (low + high) / 2
     return Hinge(other.id, item.pose.to_own(other.pose.to_world([middle]))[0].tolist(), middle.tolist())
+
+
+class Chain(NamedTuple):
+    """Objects that hinges join, directly or by others: their ids in scene order, and the number of objects of its
+    longest series, in which each is held on the one before."""
+
+    ids: tuple[str, ...]
+    n_in_series: int
+
+
+def chains(objects: Sequence[SceneObject]) -> dict[str, Chain]:
+    """Return the chain of each object that is held by a hinge or holds another, by the object's id."""
+    ids = [item.id for item in objects]
+    on = {item.id: item.hinge.to for item in objects if item.hinge is not None}
+    first, members = firsts(on), dict[str, list[str]]()
+    for x in ids:
+        members.setdefault(first.get(x, x), []).append(x)
+    found = dict[str, Chain]()
+    for together in members.values():
+        if len(together) > 1:
+            chain = Chain(tuple(together), max(_n_before(x, on) for x in together) + 1)
+            found.update(dict.fromkeys(together, chain))
+    return found
+
+
+def firsts(on: Mapping[str, str]) -> dict[str, str]:
+    """Return the id of the object on which the chain of each held object hangs, by its own id. Objects that hang on
+    each other have the least id of their ring.
+
+    Parameters: on : the id of the object that holds each held object.
+    """
+    found: dict[str, str] = {}
+    for x in on:
+        passed: dict[str, None] = {}
+        while x in on and x not in passed and x not in found:
+            passed[x] = None
+            x = on[x]
+        way = list(passed)
+        first = min(way[way.index(x) :]) if x in passed else found.get(x, x)
+        found.update(dict.fromkeys(way, first))
+    return found
+
+
+def _n_before(x: str, on: Mapping[str, str]) -> int:
+    """Return the number of objects on which an object is held, one on the other."""
+    passed = set[str]()
+    while x in on and x not in passed:
+        passed.add(x)
+        x = on[x]
+    return len(passed)
 
 
 def _from_box(item: SceneObject, point: NDArray[np.float64]) -> float:

@@ -210,14 +210,12 @@ def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float
     limits.at_most("the number of objects", len(groups), "MAX_OBJECTS")
     maker = ObjectMaker(up_axis, unit_m)
     objects = list(map(maker.make, unique_ids([item.name for item in groups]), groups))
-    by_id = {item.id: item for item in objects}
+    rows = {each.key: row for row, each in enumerate(groups) if each.key}
     for pivot in authored.pivots:
-        item, other = by_id.get(pivot.name), by_id.get(pivot.on)
-        if item is not None and other is not None:
-            anchor = pivot.anchor
+        if pivot.key in rows and pivot.on in rows:
+            item, other, anchor = objects[rows[pivot.key]], objects[rows[pivot.on]], pivot.anchor
             held = welded_at(item, other) if anchor is None else hinge_at(item, other, anchor * unit_m, pivot.axis)
-            by_id[item.id] = replace(item, hinge=held)
-    objects = list(by_id.values())
+            objects[rows[pivot.key]] = replace(item, hinge=held)
     return SceneSnapshot(name, up_axis, with_relative_heights(objects, up_axis))
 
 

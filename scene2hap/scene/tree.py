@@ -83,7 +83,8 @@ class AuthoredNode:
     """A node of the author's tree: `matrix` places it in its parent; `name` is empty if the author gave none.
 
     `is_object` : True if the file declares that the node, with all nodes below it, is one object. `mass_kg` is the mass
-        of this object in the file [kg], None if the file has none.
+        of this object in the file [kg], None if the file has none. `key` is the name by which pivots know the
+        node, unique in the file; empty if none does.
     """
 
     name: str
@@ -92,6 +93,7 @@ class AuthoredNode:
     children: tuple[AuthoredNode, ...] = ()
     is_object: bool = False
     mass_kg: float | None = None
+    key: str = ""
 
     def walk(self) -> Iterator[AuthoredNode]:
         """Yield the node and all nodes below it, in file order."""
@@ -115,10 +117,10 @@ class AuthoredNode:
 
 @dataclass(frozen=True, eq=False)
 class AuthoredPivot:
-    """A joint by which one node is held on another, both given by their names: a point (3,) of the axis in the scene's
+    """A joint by which one node is held on another, both given by their keys: a point (3,) of the axis in the scene's
     unit, None if the node is fixed; and the axis (3,), None for a ball."""
 
-    name: str
+    key: str
     on: str
     anchor: NDArray[np.float64] | None = None
     axis: NDArray[np.float64] | None = None

@@ -50,6 +50,10 @@ def _object(facts: _Facts) -> Answer:
             material_names=_texts(facts, "material_names"),
             height_m=_optional_m(facts, "relative_height_m"),
             whole_m=tuple(edge for edge in (_optional_m(facts, name) for name in _WHOLE_M) if edge is not None),
+            chain_names=_texts(facts, "chain_names"),
+            n_in_series=int(
+                checks.number("n_in_series", facts.get("n_in_series", 0), "-", at_least=0, error=BadAnswer)
+            ),
         ),
         _texts(facts, "neighbour_names"),
     )

@@ -1,4 +1,4 @@
-"""Category, size and vibration of an object from its name, its size and its neighbours' names."""
+"""Category, size and vibration of an object from its name, its size, and the names of its neighbours and chain."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from scene2hap.llm.lexicon.masses import usual_mass_kg
 from scene2hap.llm.lexicon.materials import make, painted_with
 from scene2hap.llm.lexicon.name_checks import fit, ground_plane, meant_abroad, mounted_on, owner_of_part
 from scene2hap.llm.lexicon.names import NameReading, read_name
+from scene2hap.llm.lexicon.robot_chains import link_of_robot
 from scene2hap.llm.lexicon.table import ObjectRow, StateRow, table
 from scene2hap.llm.lexicon.words import SOUNDING
 from scene2hap.scene.surface import plate_sizes
@@ -42,6 +43,8 @@ class Measured:
     `scene_category` is empty if unknown. `material_names` are the authored names of its surface materials, empty if
     unknown. `height_m` is the height of its lowest point above the scene's lowest point [m], None if unknown.
     `whole_m` are the edges of the box around the whole object [m], empty if unknown.
+    `chain_names` are the names of all objects of its chain, empty without hinges; `n_in_series` is the number in its
+    longest series.
     """
 
     name: str
@@ -51,6 +54,8 @@ class Measured:
     material_names: Sequence[str] = ()
     height_m: float | None = None
     whole_m: tuple[float, ...] = ()
+    chain_names: Sequence[str] = ()
+    n_in_series: int = 0
 
 
 def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
@@ -59,6 +64,9 @@ def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
     item = replace(item, size_m=(length, width, thickness))
     reading = read_name(item.name)
     reading = ground_plane(reading, item.whole_m, item.height_m) or reading
+    link = link_of_robot(reading, item.chain_names, item.n_in_series)
+    if link is not None and link[0].row is not None:
+        return _as_real(item, link[0], link[0].row, neighbour_names, link[1])
     if reading.row is None:
         return _unknown(item, reading)
     row, why = reading.row, ""
@@ -159,6 +167,8 @@ def _miniature(reading: NameReading, row: ObjectRow, size_m: tuple[float, float,
 
 
 def _category_reason(name: str, reading: NameReading, row: ObjectRow) -> str:
+    if not reading.head:
+        return f"the name {_shown(name)} alone does not tell."
     reason = f"{reading.head!r} in the name {_shown(name)} names {_a(row.noun)}."
     if reading.unread:
         reason += f" Not understood: {', '.join(map(repr, reading.unread))}."

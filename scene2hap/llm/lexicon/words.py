@@ -185,6 +185,9 @@ ROBOT_NOUNS = {
 ROBOT_LIMBS = dict.fromkeys(("arm", "leg"), frozenset({"link", "joint", "upper", "lower"}))
 """Nouns that name a robot's limb beside one of these words: "FL_upper_leg" is no leg of a table."""
 
+LINK_NOUNS = _set("screen display mount bracelet")
+"""Nouns that name a link in the chain of a robot, as the screen of a Sawyer; alone they are other objects."""
+
 ROBOT_MAKES = _set("panda franka iiwa kuka sawyer baxter kinova jaco xarm yumi tiago talos anymal rizon")
 """Robots whose links are called after them: iiwa_link_4."""
 

@@ -28,6 +28,8 @@ from scene2hap.text_files import read_small_text
 
 VERSION = "6"
 
+_CHAIN = "It is one of these objects, which hinges join, directly or by others, by authored name"
+
 
 @dataclass(frozen=True)
 class Prompts:
@@ -53,10 +55,14 @@ class Prompts:
         return cls({**_built_in().templates, **replaced}, f"{VERSION}+{mark}")
 
     def fill(self, component: Component, facts: Mapping[str, Any], user_prompt: str = "") -> str:
-        """Fill a template with facts, quoted as data, and add the user's prompt, which has priority."""
+        """Fill a template with facts, quoted as data, and add the user's prompt, which has priority.
+
+        The objects of a chain are named before it, so that prompts of objects without hinges have no line for them.
+        """
+        chain = f"\n{_CHAIN}: {as_data(facts['chain_names'])}" if "chain_names" in facts else ""
         wish = f"\nAbove all, follow what the scene's author asks: {user_prompt}" if user_prompt else ""
         data = {name: as_data(fact) for name, fact in facts.items()}
-        return f"{IS_DATA}\n\n{self.templates[component].format(**data, user_prompt=wish).strip()}"
+        return f"{IS_DATA}\n\n{self.templates[component].format(**data, user_prompt=chain + wish).strip()}"
 
 
 @cache

@@ -16,7 +16,7 @@ Source: URDF XML specification (ROS), `link`, `joint`, `material`; MuJoCo docume
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from xml.etree import ElementTree
@@ -27,12 +27,13 @@ from scene2hap import checks
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.scene import limits, solids
 from scene2hap.scene.files import read_bytes
+from scene2hap.scene.formats.joints import Joint, pivots
 from scene2hap.scene.formats.urdf_files import UrdfFiles
 from scene2hap.scene.formats.xml_files import walk_xml
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.tree import AuthoredNode, AuthoredPivot, AuthoredScene, Matrix, Piece, transform, with_own_keys
+from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece, transform, with_own_keys
 
 MAX_XML_BYTES = 1 << 24
 """Largest size of a URDF file [bytes] (assumed: a hundred times a large robot)."""
@@ -115,10 +116,9 @@ class _Reader:
         joints = self._joints(links)
         frames = self._frames(links, joints)
         nodes = {name: self._link(name, row, frames[name]) for name, row in links.items()}
-        pivots = self._pivots(nodes, joints, frames)
-        return AuthoredScene(
-            tuple(nodes.values()), "z", 1.0, (*self._left_out, *self._textures.left_out), tuple(pivots)
-        )
+        turning = {name: _turning(name, joint, frames[name]) for name, joint in joints.items()}
+        held = tuple(pivots(turning, {name for name, node in nodes.items() if node.children}))
+        return AuthoredScene(tuple(nodes.values()), "z", 1.0, (*self._left_out, *self._textures.left_out), held)
 
     def _named(self, tag: str) -> dict[str, Element]:
         """Return the direct children of the root with a tag, by name."""
@@ -165,29 +165,6 @@ class _Reader:
             raise SceneFormatError(f"link {ring!r} hangs below itself; the links of a robot form a tree.")
         return frames
 
-    def _pivots(
-        self, nodes: dict[str, AuthoredNode], joints: dict[str, _Joint], frames: dict[str, Matrix]
-    ) -> Iterator[AuthoredPivot]:
-        """Yield the joints by which links turn on others that move or are fixed to them, also across links without
-        geometry that are fixed."""
-        for name, joint in joints.items():
-            on = joint.on
-            while not nodes[on].children and on in joints and joints[on].kind == "fixed":
-                on = joints[on].on
-            # A door may slam against what does not move, so that geometry finds its contacts.
-            if not _moves(on, joints) or joint.kind not in ("fixed", "revolute", "continuous"):
-                continue
-            if joint.kind == "fixed":
-                yield AuthoredPivot(name, on)
-                continue
-            place = f"joint of link {name!r}: <axis>"
-            row = joint.row.find("axis")
-            axis = np.array([1.0, 0.0, 0.0] if row is None else _numbers(row, "xyz", place, 3, "1 0 0"))
-            if not axis.any():
-                raise SceneFormatError(f"{place} is 0 0 0; it must have a direction.")
-            axis = frames[name][:3, :3] @ axis
-            yield AuthoredPivot(name, on, frames[name][:3, 3], axis / np.linalg.norm(axis))
-
     # -- looks of links ----------------------------------------------------------------------------------------------
 
     def _link(self, name: str, row: Element, frame: Matrix) -> AuthoredNode:
@@ -205,7 +182,7 @@ class _Reader:
         mass_kg = 0.0 if mass is None else _numbers(mass, "value", f"{place}: <mass>", 1)[0]
         if mass_kg < 0.0:
             raise SceneFormatError(f"{place} has a mass of {mass_kg:g} kg; it must be 0 or more.")
-        return AuthoredNode(name, frame, (), tuple(drawn), is_object=True, mass_kg=mass_kg or None)
+        return AuthoredNode(name, frame, (), tuple(drawn), is_object=True, mass_kg=mass_kg or None, key=name)
 
     def _drawn(self, row: Element, geometry: Element, place: str, name: str) -> AuthoredNode:
         """Return a node with the geometry of a <visual> or <collision>, in the frame of its link."""
@@ -289,11 +266,18 @@ class _Reader:
         return self._meshes[path]
 
 
-def _moves(link: str, joints: dict[str, _Joint]) -> bool:
-    """Return True if a link moves against the first link of the file."""
-    while link in joints and joints[link].kind == "fixed":
-        link = joints[link].on
-    return link in joints
+def _turning(name: str, joint: _Joint, frame: Matrix) -> Joint:
+    """Return how a link with a frame in the world turns on the link before it."""
+    if joint.kind not in ("revolute", "continuous"):
+        return Joint(joint.on, "fixed" if joint.kind == "fixed" else "other")
+    place = f"joint of link {name!r}: <axis>"
+    row = joint.row.find("axis")
+    axis = np.array([1.0, 0.0, 0.0] if row is None else _numbers(row, "xyz", place, 3, "1 0 0"))
+    if not axis.any():
+        raise SceneFormatError(f"{place} is 0 0 0; it must have a direction.")
+    with np.errstate(all="ignore"):  # as in `_frames`
+        axis = frame[:3, :3] @ axis
+        return Joint(joint.on, "turns", frame[:3, 3], axis / np.linalg.norm(axis))
 
 
 def _origin(row: Element, place: str) -> Matrix:

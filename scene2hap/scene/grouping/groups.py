@@ -62,13 +62,14 @@ class Group:
     """The pieces of one object, each with its own world transform.
 
     `frame` is the world transform of the node that names the object. `mass_kg` is the object's mass in the file [kg],
-    None if the file has none.
+    None if the file has none. `key` is the key of that node.
     """
 
     name: str
     frame: Matrix
     parts: tuple[tuple[Matrix, Piece], ...]
     mass_kg: float | None = None
+    key: str = ""
 
 
 def group_objects(roots: Sequence[AuthoredNode], how: Grouping = "authored", *, scene_name: str = "") -> list[Group]:
@@ -128,7 +129,9 @@ class _Subtree:
 def _authored(node: AuthoredNode, above: Matrix) -> _Subtree:
     frame = above @ node.matrix
     if node.is_object:
-        return _Subtree([Group(node.name, frame, tuple(_all_parts(node, above)), node.mass_kg)], has_head=True)
+        return _Subtree(
+            [Group(node.name, frame, tuple(_all_parts(node, above)), node.mass_kg, node.key)], has_head=True
+        )
     members = [Member(node.name, frame, node.pieces)] if node.pieces else []
     joined = _joined_parts(node, frame)
     is_joined = frozenset(joined)
@@ -144,7 +147,7 @@ def _authored(node: AuthoredNode, above: Matrix) -> _Subtree:
         several = split(node.name, members)
         if len(several) == 1:
             mass_kg = None if others else node.mass_kg
-            return _Subtree([Group(node.name, frame, _parts(members), mass_kg), *others], has_head=True)
+            return _Subtree([Group(node.name, frame, _parts(members), mass_kg, node.key), *others], has_head=True)
         items = [Group(item[0].name, item[0].frame, _parts(item)) for item in several]
         return _Subtree([*items, *others], has_head=bool(node.pieces))
     if len(below) == 1 and below[0].has_head:
@@ -229,7 +232,7 @@ def _at_depth(node: AuthoredNode, above: Matrix, depth: float) -> Iterator[Group
     is_whole = depth == 0 or not node.children
     parts = tuple(_all_parts(node, above)) if is_whole else tuple((frame, piece) for piece in node.pieces)
     if parts:
-        yield Group(node.name, frame, parts, node.mass_kg if is_whole else None)
+        yield Group(node.name, frame, parts, node.mass_kg if is_whole else None, node.key)
     for child in () if is_whole else node.children:
         yield from _at_depth(child, frame, depth - 1)
 
@@ -261,7 +264,7 @@ def _mapped(roots: Sequence[AuthoredNode], names: Mapping[str, str]) -> list[Gro
             if owner != around:
                 for other in objects.keys() & {owner, around}:
                     objects[other] = replace(objects[other], mass_kg=None)
-                objects.setdefault(owner, Group(owner, frame, (), node.mass_kg))
+                objects.setdefault(owner, Group(owner, frame, (), node.mass_kg, node.key))
             parts = (*objects[owner].parts, *((frame, piece) for piece in node.pieces))
             objects[owner] = replace(objects[owner], parts=parts)
         children = tuple(take(child, frame, owner) for child in node.children)

@@ -9,6 +9,8 @@ body below it; a model of kind "component" with at most one rigid body below it,
 copy of a point instancer. Other prims become objects by the rules of `scene.grouping.groups`. The mesh of an object of
 Blender is no node of its own.
 
+Joints between rigid bodies are pivots (`usd.joints`).
+
 Source: OpenUSD 26.11, schemas Xformable, Imageable, PointInstancer, RigidBodyAPI; `UsdGeomGetStageMetersPerUnit`.
 """
 
@@ -25,6 +27,7 @@ from pxr import Kind, Usd, UsdGeom, UsdPhysics, UsdUtils
 
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
+from scene2hap.scene.formats.usd.joints import pivots_of
 from scene2hap.scene.formats.usd.layers import Layers, reason_of
 from scene2hap.scene.formats.usd.masses import Masses
 from scene2hap.scene.formats.usd.materials import UsdMaterials
@@ -32,7 +35,7 @@ from scene2hap.scene.formats.usd.meshes import Triangles, mesh_triangles, shape_
 from scene2hap.scene.formats.usd.values import integers, is_data_of_parent, name_of, rest_time, value
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.objects import UpAxis
-from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
+from scene2hap.scene.tree import AuthoredNode, AuthoredPivot, AuthoredScene, Matrix, Piece
 
 _FREE_NUMBERS, _NUMBERS_PER_BYTE = 20_000_000, 4.0
 """Most numbers in all meshes: a fixed number, and a further number for each byte of the layers.
@@ -61,7 +64,7 @@ def read_stage(
             stage = Usd.Stage.Open(layers.root(), Usd.Stage.LoadAll)
             layers.check(stage)
             reader = _Reader(stage, layers)
-            roots = reader.roots()
+            roots, pivots = reader.roots(), reader.pivots()
         except SceneError:
             raise
         # usd-core raises its own errors, and attributes may hold values of any type.
@@ -69,7 +72,7 @@ def read_stage(
             raise SceneFormatError(f"{path.name!r} cannot be read as USD: {reason_of(cause)}.") from cause
         # The format defines centimetres for a stage without a unit, and other programs read it so.
         unit_m = float(UsdGeom.GetStageMetersPerUnit(stage))
-        return AuthoredScene(roots, _up_axis(stage, path.name), unit_m, textures.left_out)
+        return AuthoredScene(roots, _up_axis(stage, path.name), unit_m, textures.left_out, pivots)
 
 
 def _up_axis(stage: Any, name: str) -> UpAxis:
@@ -103,12 +106,19 @@ class _Reader:
         self._components: dict[int, AuthoredNode] = {}
         self._data: dict[int, AuthoredNode] = {}
         self._size, self._n_bodies = limits.TreeSize(), 0
+        # Whether each rigid body has geometry, by its path.
+        self._bodies: dict[str, bool] = {}
+        self._joints: list[Any] = []
 
     def roots(self) -> tuple[AuthoredNode, ...]:
         """Return the nodes of the prims at the top of the stage."""
         found = self._below(self._stage.GetPseudoRoot(), _Above())
         n_pieces = sum(_n_pieces(node) for node in found)
         return tuple(self._unwrapped(node, n_pieces) for node in found)
+
+    def pivots(self) -> tuple[AuthoredPivot, ...]:
+        """Return the joints among the prims that `roots` has read."""
+        return pivots_of(self._joints, self._bodies, _world)
 
     def _unwrapped(self, node: AuthoredNode, n_pieces: int) -> AuthoredNode:
         """Return the node. A component that holds the whole scene is no object, since exporters declare any file a
@@ -142,6 +152,8 @@ class _Reader:
         density = self._masses.density(prim, above.density)
         within = _Above(world, purpose, density, depth, above.predicate)
 
+        if prim.IsA(UsdPhysics.Joint):
+            self._joints.append(prim)
         n_bodies, is_body = self._n_bodies, prim.HasAPI(UsdPhysics.RigidBodyAPI)
         pieces: tuple[Piece, ...] = ()
         own_kg: float | None = 0.0
@@ -168,7 +180,10 @@ class _Reader:
             children,
             is_object=is_single and (is_body or is_component),
             mass_kg=mass_kg,
+            key=str(prim.GetPath()) if is_body else "",
         )
+        if is_body and value(UsdPhysics.RigidBodyAPI(prim).GetRigidBodyEnabledAttr()) is not False:
+            self._bodies[node.key] = _n_pieces(node) > 0
         if is_data_of_parent(prim) and not children and prim.IsA(UsdGeom.Gprim) and (matrix == np.eye(4)).all():
             self._data[id(node)] = node
         if is_component and not is_body:
@@ -254,7 +269,7 @@ class _Reader:
                 self._size.add_triangles(again.n_triangles)
             node = made[key]
             if node is not None:
-                copies.append(replace(node, matrix=matrix @ node.matrix, is_object=True))
+                copies.append(replace(node, matrix=matrix @ node.matrix, is_object=True, key=""))
         return tuple(copies)
 
     def _prototype(self, prim: Any, above: _Above) -> AuthoredNode | None:
@@ -276,6 +291,14 @@ def _sum_kg(own_kg: float | None, children: tuple[AuthoredNode, ...]) -> float |
     below = [child.mass_kg for child in children if child.mass_kg is not None or _n_pieces(child)]
     known = [kg for kg in (own_kg, *below) if kg is not None]
     return sum(known) or None if len(known) == len(below) + 1 else None
+
+
+def _world(prim: Any) -> Matrix:
+    """Return the prim's transform in the world, for column vectors."""
+    if not prim or prim.IsPseudoRoot():
+        return np.eye(4)
+    above = _world(prim.GetParent())
+    return above @ _matrix(prim, above) if prim.IsA(UsdGeom.Xformable) else above
 
 
 def _matrix(prim: Any, above: Matrix) -> Matrix:
