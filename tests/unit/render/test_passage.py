@@ -9,7 +9,7 @@ import pytest
 
 from scene2hap import AudioClip, Bands
 from scene2hap.audio.run_curve import RunCurve
-from scene2hap.render.loop_bank import CELL, LoopBank, Slot
+from scene2hap.render.loop_bank import CELL, LoopBank, Slot, read
 from scene2hap.render.passage import LEAD_S, STEADY, STILL, Course, Passage, Running
 
 RATE = 8000
@@ -27,10 +27,7 @@ def bank(frequency_hz: float = 100.0, bands: Bands | None = None) -> LoopBank:
 def played(one: Slot, begin: int, n: int, n_bands: int = 1) -> np.ndarray:
     out, cells = np.zeros((n_bands, CELL), np.float32), []
     for at in range(begin, begin + n, CELL):
-        loop = one.only(at)
-        out.fill(0.0)
-        if loop is not None:
-            loop.fill(at, out)
+        read([one.only(at)], at, out)
         cells.append(out.T.copy())
     return np.concatenate(cells)[:n]
 
