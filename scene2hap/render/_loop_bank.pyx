@@ -16,9 +16,6 @@ cdef class StoredLoop:
         # Up to this position no product overflows in C. With loops of minutes it is reached after days.
         self.last = 2**62 // (2 * max(numerator, denominator)) - CELL
 
-    def fill(self, begin, float[:, ::1] out):
-        self.write(begin, &out[0, 0])
-
     cdef write(self, begin, float* out):
         cdef long long here, there, b
         cdef Py_ssize_t start, other, band, t, n_bands = self.samples.shape[1]
@@ -47,9 +44,11 @@ cdef class StoredLoop:
 
 def read(list loops, begin, float[:, ::1] out):
     cdef Py_ssize_t row = 0, k, n_bands = out.shape[0] // len(loops) if loops else 0
+    assert out.shape[1] == CELL
     for loop in loops:
         if loop is not None:
-            (<StoredLoop?>loop).write(begin, &out[row, 0])
+            assert (<StoredLoop?>loop).samples.shape[1] == n_bands  # else it writes beside its rows
+            (<StoredLoop>loop).write(begin, &out[row, 0])
         else:
             for k in range(n_bands * CELL):
                 (&out[row, 0])[k] = 0
@@ -61,7 +60,7 @@ def read_between(
 ):
     cdef Py_ssize_t t, tap, band, at, number, n_bands = out.shape[1], low = below[0], high = below[0]
     assert below.shape[0] == weights.shape[1] == out.shape[0] == CELL and weights.shape[0] == 4
-    assert cell.shape[0] == n_bands and cell.shape[1] == CELL
+    assert cell.shape[0] == n_bands == loop.samples.shape[1] and cell.shape[1] == CELL
     out[:] = 0
     for t in range(1, CELL):
         low, high = min(low, below[t]), max(high, below[t])

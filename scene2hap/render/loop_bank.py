@@ -53,7 +53,7 @@ class StoredLoop:
         self._samples, self._length, self._numerator, self._denominator = samples, length, numerator, denominator
         self._fade, self._other = fade, np.zeros((samples.shape[1], CELL), dtype=np.float32)
 
-    def fill(self, begin: int, out: Block) -> None:
+    def write(self, begin: int, out: Block) -> None:
         """Write CELL samples of its bands into (n_bands, CELL), from a tactile sample of the common clock on."""
         samples, numerator, denominator = self._samples, self._numerator, self._denominator
         here = (2 * begin * numerator + denominator) // (2 * denominator)
@@ -74,7 +74,7 @@ def read(loops: Sequence[StoredLoop | None], begin: int, out: Block) -> None:
         if loop is None:
             rows.fill(0.0)
         else:
-            loop.fill(begin, rows)
+            loop.write(begin, rows)
 
 
 @compiled
@@ -87,7 +87,7 @@ def read_between(loop: StoredLoop, below: NDArray[np.intp], weights: Block, cell
     """
     out.fill(0.0)
     for number in range((int(below.min()) - 1) // CELL, (int(below.max()) + 2) // CELL + 1):
-        loop.fill(number * CELL, cell)
+        loop.write(number * CELL, cell)
         for offset, weight in enumerate(weights, -1 - number * CELL):
             at = below + offset
             places = np.flatnonzero((at >= 0) & (at < CELL))
@@ -129,7 +129,7 @@ class LoopBank:
         turn = 2 * one.denominator * one.length
         unwrapped = (first % turn + np.arange(n_samples) * 2 * one.numerator) // (2 * one.denominator)
         found: Block = one.samples[unwrapped % one.length]
-        # Where a sample is left out or repeated, one reading fades into the other, as in `StoredLoop.fill`.
+        # Where a sample is left out or repeated, one reading fades into the other, as in `StoredLoop.write`.
         for i in (np.flatnonzero(np.diff(unwrapped) != 1) + 1).tolist():
             fade = _FADE[: n_samples - i, None]
             before = one.samples[(unwrapped[i - 1] + 1 + np.arange(len(fade))) % one.length]

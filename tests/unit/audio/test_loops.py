@@ -120,7 +120,7 @@ def test_a_loop_is_as_long_as_its_clip_allows(seconds: float, seed: int) -> None
     assert find_seam(x, RATE).length / RATE > 0.6 * seconds
 
 
-@pytest.mark.parametrize("frequency_hz", [50.0, 100.0])
+@pytest.mark.parametrize("frequency_hz", [50.0, 100.0, 250.0])
 def test_loop_of_a_tone_is_the_longest_of_many_equal_ones(frequency_hz: float) -> None:
     """Any whole number of periods is as good; a long loop repeats less often. A fade and both edges are cut off."""
     assert find_seam(tone(frequency_hz, 2.0), RATE).length / RATE > 0.9 * (2.0 - 0.2 - 2 * 0.02)

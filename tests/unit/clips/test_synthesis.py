@@ -60,6 +60,13 @@ def test_a_transient_is_a_pulse_that_halves_the_rest(pitch: float, duration_s: f
     np.testing.assert_allclose(pulse[4000 + n :], 0.0, atol=1e-12)
 
 
+def test_each_transient_plays_until_the_next() -> None:
+    first, second = Transient(0.2, 0.9, 0.0), Transient(0.21, 0.5, 1.0)  # alone the first lasts 36 ms
+    both, *alone = (synthesize(HapticClip(flat(0.4), None, some)) for some in ((first, second), (first,), (second,)))
+    np.testing.assert_array_equal(both[:1680], alone[0][:1680])
+    np.testing.assert_array_equal(both[1680:], alone[1][1680:])
+
+
 def test_curves_jump_hold_and_follow_roots() -> None:
     jump = Curve(np.array([0.1, 0.5, 0.5, 1.0]), np.array([0.2, 0.4, 0.8, 0.8]))
     np.testing.assert_allclose(jump.at([0.0, 0.1, 0.3, 0.5, 0.7, 9.0]), [0.2, 0.2, 0.3, 0.8, 0.8, 0.8])

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from scene2hap.devices.datagrams import Datagrams
 from scene2hap.devices.osc import OscLine, encode, gains_of
+from scene2hap.devices.protocol import SinkFormat
 from scene2hap.devices.serial_amp import SerialAmplifierSink
 from scene2hap.devices.udp import UdpSink
 from scene2hap.errors import ConfigError, MissingExtra
@@ -71,6 +72,22 @@ def test_plays_and_gains_are_sent_when_they_change_and_all_again_each_second(mon
     assert sent_at(101.9) == set()
     line.latest = Frame(np.array([[[0.0], [0.0]], [[0.0], [0.25]]], dtype=np.float32))
     assert sent_at(102.2) == {plays[1], gains[1], encode("/scene2hap/gain", 0.0, "radio", 0), *zeros}
+
+
+def test_samples_are_taken_at_the_session_s_rate(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They are discarded, but the session's clock, and so each ramp and impact, advances with them."""
+    now_s, wire = [100.0], Wire()
+    monkeypatch.setattr(time, "monotonic", lambda: now_s[0])
+    monkeypatch.setattr(time, "sleep", lambda s: now_s.__setitem__(0, now_s[0] + s + 1e-4))
+    monkeypatch.setattr(wire, "connect", lambda hello, carry_on: None)
+    line, taken = OscLine(wire, {}), 0
+    line.connect(SinkFormat(48_000, ("left",)), lambda: True)
+    for _ in range(300):
+        n = line.wanted(0.005)
+        line.send(np.zeros((n, 1), dtype=np.float32))
+        taken += n
+    assert taken / 48_000 == pytest.approx(now_s[0] - 100.0, abs=0.02)
+    assert taken > 10_000
 
 
 @pytest.mark.parametrize(

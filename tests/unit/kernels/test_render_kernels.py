@@ -31,11 +31,19 @@ def test_kernels_read_the_same_cells_of_a_loop(seed: int, begin: int) -> None:
         cell = np.full((9, CELL), np.nan, dtype=np.float32)
         read([loop, None, loop], begin, cell)
         again = np.empty((3, CELL), dtype=np.float32)
-        loop.fill(begin, again)
+        read([loop], begin, again)
         np.testing.assert_array_equal(cell, np.concatenate([again, np.zeros_like(again), again]))
         cells.append(cell)
         read([], begin, np.empty((0, CELL), dtype=np.float32))
     np.testing.assert_allclose(cells[1], cells[0], atol=1e-6)
+
+
+@pytest.mark.parametrize("shape", [(1, CELL), (3, CELL - 1)], ids=["bands", "samples"])
+def test_kernels_refuse_to_write_a_loop_beside_its_block(shape: tuple[int, int]) -> None:
+    samples, fade = np.ones((100 + CELL, 3), dtype=np.float32), np.ones(CELL, dtype=np.float32)
+    for loop_kind, read in zip(both("render.loop_bank.StoredLoop"), both("render.loop_bank.read"), strict=True):
+        with pytest.raises((AssertionError, ValueError)):
+            read([loop_kind(samples, 100, 1, 1, fade)], 0, np.empty(shape, dtype=np.float32))
 
 
 @steady

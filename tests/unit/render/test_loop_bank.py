@@ -81,6 +81,15 @@ def test_position_correction_causes_no_click(
     assert 10 * math.log10(loudest / np.mean(x**2)) < -60
 
 
+@pytest.mark.parametrize(("n", "rate"), [*ODD, (99, 44_100), (1_003, 44_100), (7_001, 48_000)])
+def test_no_number_of_turns_within_a_second_fits_better(n: int, rate: int) -> None:
+    """A loop at n / rate [s] is stored as whole tactile samples: the smaller the misfit, the rarer the corrections."""
+    turn = Fraction(n * TACTILE, rate)
+    misfits = [abs(max(1, round(k * turn)) / (k * turn) - 1) for k in range(1, max(1, rate // n) + 1)]
+    (stored,) = LoopBank([tone(1, n, rate)], Bands.dominant(), TACTILE)._stored
+    assert abs(Fraction(stored.numerator, stored.denominator) - 1) == min(misfits)
+
+
 def test_position_is_that_of_the_audible_loop_however_long_it_runs() -> None:
     n, rate = 220_501, 44_100
     for frame in (0, 1, 239_999, 48_000 * 86_400 * 7 + 5):

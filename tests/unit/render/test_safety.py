@@ -76,7 +76,10 @@ HOSTILE = {
 @pytest.mark.parametrize("limits", LIMITS.values(), ids=LIMITS)
 @pytest.mark.parametrize("x", HOSTILE.values(), ids=HOSTILE)
 def test_any_input_gives_finite_output_within_full_scale(x: NDArray[np.float32], limits: ActuatorProfile) -> None:
-    assert_safe(SafetyLayer(limits, RATE, 1).process(x), limits)
+    layer = SafetyLayer(limits, RATE, 1)
+    assert_safe(layer.process(x), limits)
+    assert layer.stats.repaired == np.count_nonzero(~np.isfinite(x))
+    assert layer.stats.clipped == np.count_nonzero(np.isfinite(x) & (np.abs(x) > 1))
 
 
 def test_a_million_random_gain_jumps() -> None:

@@ -227,6 +227,22 @@ def test_an_added_hand_feels_at_once_what_a_hand_from_the_start_would() -> None:
         np.testing.assert_allclose(outs[0], outs[1], atol=1e-6)
 
 
+def test_an_added_hand_is_in_phase_if_a_block_was_rendered_meanwhile(monkeypatch: pytest.MonkeyPatch) -> None:
+    added = session()
+    still = HapticSession(*table_with_two_phones(), CONFIG, hands=("left", "right", "foot"))
+    new_plan = added._playback._new_plan
+    # The audio thread takes its block between the new mixer and the plan that plays it.
+    monkeypatch.setattr(added._playback, "_new_plan", lambda: (added.render(777), new_plan())[1])
+    added.add_hand("foot")
+    still.render(777)
+    outs = []
+    for s in (added, still):
+        s.update(touches=[Touch("foot", "table", ON_TABLE.point_m)])
+        outs.append(s.render(RATE // 4)[:, 2])
+    assert np.abs(outs[1]).max() > 0.01
+    np.testing.assert_allclose(outs[0], outs[1], atol=1e-6)
+
+
 def test_hands_keep_to_the_channels_of_a_sink_that_runs() -> None:
     with HapticSession(*table_with_two_phones(), CONFIG, sink=MemorySink()) as s:
         with pytest.raises(SessionError, match="MemorySink has one channel per hand from its start"):

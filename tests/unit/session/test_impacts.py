@@ -550,6 +550,19 @@ def test_landings_are_felt_explained_and_can_be_disabled() -> None:
     assert made.stats.impacts == 0
 
 
+@pytest.mark.parametrize("height_m", [0.01, 0.03])
+def test_landing_after_a_short_fall_from_rest_has_its_speed(height_m: float) -> None:
+    """The first step counts, whose time is that of the update."""
+    made = session()
+    rest = [height_m] * 15  # longer than the gap after which a motion has ended
+    for above_m in [*rest, *(max(0.0, height_m - 9.81 * (step / 90) ** 2 / 2) for step in range(1, 20))]:
+        made.update({"cup": Pose((0.45, TOP_M + 0.05 + above_m, 0.4))}, touches())
+        made.render_s(1 / 90)
+    (impact,) = made.explain("left").impacts
+    assert impact.speed_m_s is not None
+    assert 0.5 <= impact.speed_m_s / math.sqrt(2 * 9.81 * height_m) <= 1.05
+
+
 def test_hands_can_change_during_a_burst() -> None:
     made = session()
     made.update(touches=touches())

@@ -155,6 +155,18 @@ def test_object_that_a_soft_contact_stops_lands_once_at_any_rate_of_updates(heig
     assert 0.6 * fell_at <= found[0].speed_m_s <= 1.1 * fell_at
 
 
+@pytest.mark.parametrize("phase", range(5))
+def test_object_that_moves_in_some_of_many_updates_lands(phase: int) -> None:
+    """A game of 1000 updates a second may move each object in every fifth of them."""
+    frames: list[tuple[float, Mapping[str, Pose]]] = [(i / 1000, {}) for i in range(500)]
+    for step, position in enumerate(fall(0.4, 1 / 200)):
+        time_s, _ = frames[5 * step + phase]
+        frames[5 * step + phase] = time_s, {"cup": Pose(position)}
+    (landing,) = landings_in(room(), frames)
+    assert landing.onto == "table"
+    assert 0.5 <= landing.speed_m_s / math.sqrt(2 * 9.81 * 0.4) <= 1.05
+
+
 @pytest.mark.parametrize("updates_hz", [300, 500, 1000])
 def test_contact_in_any_update_of_a_fast_bounce_counts(updates_hz: int) -> None:
     """A ball that bounces off within 2 ms is out of reach by the end of the step, whose contacts an engine gives."""

@@ -1,5 +1,6 @@
 """Skipped work: each skip counts its savings, can be switched off, and stays within its stated error."""
 
+from threading import Event
 from typing import Any
 
 import numpy as np
@@ -138,6 +139,26 @@ def test_unchanged_frames_are_not_computed_again(skip: Any) -> None:
     moved = s.update({"phone": Pose((0.3, 0.725, 0.4))}, [ON_TABLE]).gain("left", "phone")
     assert moved != s.update({"phone": Pose((0.2, 0.725, 0.4))}, [ON_TABLE]).gain("left", "phone")
     assert not s.update().gains.any()
+
+
+def test_moved_object_is_evaluated_again_in_an_outdated_field(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its touch is at another place of it, also if the contacts and all other touched objects stay."""
+    model, may_prepare = Watched(), Event()
+    may_prepare.set()
+    prepare = model.prepare
+    monkeypatch.setattr(model, "prepare", lambda *given: may_prepare.wait(30.0) and prepare(*given))
+    s = session(only("unchanged_frames"), model, prepare="background")
+    touches = [ON_TABLE, Touch("right", "cup", (0.8, 0.82, 0.4))]
+    s.update({"cup": Pose((0.8, 0.77, 0.4))}, touches)
+    assert s.wait_prepared(30.0)
+    may_prepare.clear()
+    n_asked = []
+    for x in (0.8, 0.81):  # lifted off the table
+        s.update({"cup": Pose((x, 1.5, 0.4))}, touches)
+        n_asked.append(len(model.asked))
+    assert not s.is_current
+    may_prepare.set()
+    assert n_asked[0] < n_asked[1]
 
 
 def test_gains_are_kept_when_contacts_change_that_no_source_reaches() -> None:

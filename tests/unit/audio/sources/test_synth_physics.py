@@ -20,7 +20,7 @@ from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.sources.synth.events import blows, bubbles, music
 from scene2hap.audio.sources.synth.oscillating import combustion, ringing_motor, vibration_motor
-from scene2hap.audio.sources.synth.rotating import compressor, fan, power_tool, pump, spinner
+from scene2hap.audio.sources.synth.rotating import compressor, fan, power_tool, pump, spinner, washing
 from scene2hap.audio.sources.synth.signals import SAMPLE_RATE_HZ, Signal, Take
 from scene2hap.audio.sources.synth.working import geared, rolling, rotor_slap, stepper
 from scene2hap.errors import ConfigError
@@ -192,6 +192,12 @@ def test_kettle_has_the_same_pitch_for_any_seed() -> None:
 def test_impacts_repeat_at_the_stated_rate() -> None:
     envelope = np.abs(hilbert(blows(take(), per_second=25.0, body_hz=125.0, decay_s=0.01)))
     assert line_hz(envelope, 10.0, 40.0) == pytest.approx(25.0, abs=0.1)
+
+
+@pytest.mark.parametrize("drum_hz", [0.85, 2.0])
+def test_laundry_falls_once_per_turn_of_the_drum(drum_hz: float) -> None:
+    envelope = np.abs(hilbert(washing(take(), drum_hz=drum_hz, slosh=0.0)))
+    assert line_hz(envelope, 0.3, 8.0) == pytest.approx(drum_hz, abs=0.1)
 
 
 def test_music_has_the_stated_beat() -> None:
