@@ -131,6 +131,11 @@ def read_settings(path: str | None, section: str) -> dict[str, Any]:
 
 
 def cache_folder(part: str) -> Path:
-    """Return the default folder of a part's cache, in the user's cache folder."""
+    """Return the default folder of a part's cache, in the user's cache folder. Raises: ConfigError: there is none."""
     root = os.environ.get("XDG_CACHE_HOME") or (os.environ.get("LOCALAPPDATA") if os.name == "nt" else "")
-    return (Path(root) if root else Path.home() / ".cache") / "scene2hap" / part
+    try:
+        return (Path(root) if root else Path.home() / ".cache") / "scene2hap" / part
+    except RuntimeError as cause:  # a user without an entry, as in a container or a service
+        raise ConfigError(
+            "there is no home folder for the cache; set cache_dir, or the environment variable XDG_CACHE_HOME."
+        ) from cause

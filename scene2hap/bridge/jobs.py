@@ -33,7 +33,7 @@ class Jobs:
     """All bakes of a server. Unsaved bundles are in a temporary folder until the server ends."""
 
     def __init__(self) -> None:
-        self._folder = tempfile.TemporaryDirectory(prefix="scene2hap-bridge-", ignore_cleanup_errors=True)
+        self._temporary: tempfile.TemporaryDirectory[str] | None = None
         # Starts at a random number, so that a job number from before a restart does not match another client's bake.
         self._job_numbers, self._numbers = itertools.count(1 + secrets.randbelow(1 << 30)), itertools.count(1)
         self._tasks: dict[int, asyncio.Task[None]] = {}
@@ -42,8 +42,12 @@ class Jobs:
 
     @property
     def folder(self) -> Path:
-        """The folder for files that jobs read and write."""
-        return Path(self._folder.name)
+        """The folder for files that jobs read and write. Raises: BridgeError: it cannot be made."""
+        # Made at its first use, since a server that is killed leaves it behind.
+        if self._temporary is None:
+            with temporary_files():
+                self._temporary = tempfile.TemporaryDirectory(prefix="scene2hap-bridge-", ignore_cleanup_errors=True)
+        return Path(self._temporary.name)
 
     def require_place(self) -> None:
         """Raise a BridgeError if no bake can start now: too many run, or this program cannot start Python."""
@@ -106,7 +110,8 @@ class Jobs:
         """End all bakes, and remove unsaved bundles."""
         for job in [*self._tasks]:
             await self.cancel(job)
-        await asyncio.to_thread(self._folder.cleanup)
+        if self._temporary is not None:
+            await asyncio.to_thread(self._temporary.cleanup)
 
     async def _bake(self, job: int, wanted: Mapping[str, Any], folder: Path) -> None:
         process: asyncio.subprocess.Process | None = None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -33,11 +33,11 @@ def temporary_files() -> Iterator[None]:
 class SentPictures:
     """The pictures of one client.
 
-    Parameters: folder : parent of its temporary folder.
+    Parameters: parent : returns the parent of its temporary folder; called at the first picture.
     """
 
-    def __init__(self, folder: Path) -> None:
-        self._parent = folder
+    def __init__(self, parent: Callable[[], Path]) -> None:
+        self._parent = parent
         self._folder: Path | None = None
         self._rows: dict[tuple[Any, Any, Any], str] = {}
         self._n_bytes = 0
@@ -64,7 +64,7 @@ class SentPictures:
             )
         with temporary_files():
             if self._folder is None:
-                self._folder = Path(tempfile.mkdtemp(prefix="pictures-", dir=self._parent))
+                self._folder = Path(tempfile.mkdtemp(prefix="pictures-", dir=self._parent()))
             name = self._rows.get(key, f"{len(self._rows):06d}")
             write_whole(self._folder / name, file)
         self._rows[key] = name

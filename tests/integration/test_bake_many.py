@@ -347,6 +347,25 @@ def test_dead_worker_fails_only_its_scene(scenes: list[Path], tmp_path: Path) ->
     assert bake_many(scenes[:1], tmp_path).count("baked") == 1
 
 
+UNGUARDED = """
+import sys
+
+from scene2hap import bake_many
+
+print(bake_many(sys.argv[2:], sys.argv[1], executor="processes:1").failed[0].error)
+"""
+
+
+def test_a_script_without_a_guard_of_its_entry_ends_with_advice(scenes: list[Path], tmp_path: Path) -> None:
+    """Its workers bake too; they would wait for the folders of the run that started them."""
+    script = tmp_path / "unguarded.py"
+    script.write_text(UNGUARDED, encoding="utf-8")
+    command = [sys.executable, str(script), str(tmp_path / "bundles"), str(scenes[0])]
+    run = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
+    assert "__main__" in run.stdout
+    assert "before the\n        current process has finished its bootstrapping" in run.stderr
+
+
 def test_a_folder_that_cannot_be_made_is_refused_before_a_model_is_asked(scenes: list[Path], tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     held = Held()

@@ -8,6 +8,7 @@ import warnings
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -100,9 +101,14 @@ def _result(future: Future[Conversion | Failure], job: _Job) -> Conversion | Fai
     try:
         return future.result()
     except BrokenProcessPool:
-        for litter in drafts_of(job.output):
-            litter.unlink(missing_ok=True)
-        return Failure(job.source, f"{job.source}: a process died while files were converted. Try with --workers 1.")
+        with suppress(FileNotFoundError):  # it died before it made the folder
+            for litter in drafts_of(job.output):
+                litter.unlink(missing_ok=True)
+        return Failure(
+            job.source,
+            f"{job.source}: a process died while files were converted. Try with --workers 1; guard a script's entry "
+            'with `if __name__ == "__main__":`.',
+        )
 
 
 def _convert(job: _Job, pictures: bool, settings: dict[str, Any]) -> Conversion | Failure:

@@ -51,6 +51,9 @@ class Pool:
             if kind == "processes":
                 self.n_workers = _n_workers(rest)
                 self._own = self._begun(self.n_workers)
+                # A worker runs the program that starts it up to here, unless that is guarded. Python then refuses to
+                # start a worker of a worker; later, that worker would wait for the folders that this process locks.
+                self._own.submit(os.getpid)
                 # Tasks wait here, not in the pool: tasks in a broken pool fail together.
                 self._turn = asyncio.Semaphore(self.n_workers)
             elif kind == "dask" and rest:
@@ -121,8 +124,9 @@ class Pool:
                 self._alone.shutdown(wait=False, cancel_futures=True)
                 self._alone = None
         raise ConfigError(
-            f"a worker that ran {task.__name__} alone died {_TRIES} times: out of memory, or killed. Use fewer "
-            "workers, 'processes:1', or bake this scene alone to see why."
+            f"a worker that ran {task.__name__} alone died {_TRIES} times: out of memory, killed, or never started. "
+            "Use fewer workers, 'processes:1', or bake this scene alone to see why. Guard a script's entry with "
+            '`if __name__ == "__main__":`.'
         )
 
     def _begun(self, n_workers: int) -> ProcessPoolExecutor:

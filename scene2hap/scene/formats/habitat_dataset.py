@@ -340,10 +340,11 @@ class Dataset:
         """Yield handles and files of a suffix that match a pattern, or that are in folders that match it."""
         top = _resolved(self.root)
         for match in self._matching(self.folder, pattern):
-            handle = writable(Path(os.path.relpath(match, self.folder)).as_posix())
             if not _resolved(match).is_relative_to(top):
                 self._outside.append(f"{pattern!r} of {self._file}")
-            elif match.name.endswith(suffix):
+                continue
+            handle = writable(Path(os.path.relpath(match, self.folder)).as_posix())
+            if match.name.endswith(suffix):
                 yield handle, match
             else:
                 for name in self._listed(match):

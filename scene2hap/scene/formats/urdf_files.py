@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
+from urllib.request import url2pathname
 from xml.etree.ElementTree import Element
 
 from scene2hap.errors import SceneError
@@ -54,7 +55,7 @@ class UrdfFiles:
                 is_whole = compiler.get("strippath") == "false"
                 yield folder / (compiler.get("meshdir") or "") / (plain if is_whole else PurePosixPath(plain).name)
         elif scheme == "file":
-            yield Path(unquote(rest))
+            yield Path(url2pathname(rest))  # /C:/arm.stl on Windows
         elif scheme in _PACKAGES:
             package, _, inner = unquote(rest).partition("/")
             for above in (folder, *folder.parents):

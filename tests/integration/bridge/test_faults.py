@@ -316,7 +316,10 @@ def program(*words: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
-def test_a_server_that_is_killed_and_started_again(root: Path) -> None:
+def test_a_server_that_is_killed_and_started_again(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    monkeypatch.setenv("TMPDIR", str(temporary))
     with program("--port", "0", "--root", str(root)) as (process, url):
         client = Client(url)
         client.play(bundle="desk.bundle", moving=[])
@@ -337,6 +340,7 @@ def test_a_server_that_is_killed_and_started_again(root: Path) -> None:
             again.next_gains()
         assert closed.value.rcvd is not None
         assert closed.value.rcvd.code == 1001
+    assert not [*temporary.iterdir()]
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")

@@ -22,7 +22,7 @@ def picture(name: str) -> bytes:
 def test_a_picture_that_the_disk_cannot_take_is_refused_and_not_listed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    pictures = SentPictures(tmp_path)
+    pictures = SentPictures(lambda: tmp_path)
     pictures.take(picture("radio"))
 
     def full(descriptor: int) -> None:

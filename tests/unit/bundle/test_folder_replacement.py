@@ -196,7 +196,7 @@ def test_file_saved_by_an_editor_during_a_save_is_kept(tmp_path: Path, monkeypat
     def and_then_edit(old: Path, new: Path) -> None:
         carry_over(old, new)
         (tmp_path / "beside").write_text("eleven years")
-        (tmp_path / "beside").rename(folder / "thesis.txt")
+        (tmp_path / "beside").replace(folder / "thesis.txt")
         (folder / "new.txt").write_text("a chapter")
 
     monkeypatch.setattr(folder_replacement, "carry_over", and_then_edit)

@@ -652,6 +652,20 @@ def test_symbolic_links_out_of_the_root_are_refused(dataset: Dataset, tmp_path: 
     assert loaded(dataset.scene(instance()), assets_root=tmp_path).object(CHAIR)
 
 
+def test_a_pattern_on_another_drive_finds_nothing(dataset: Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
+    """On Windows, a pattern may name another drive, to which there is no relative path."""
+    relative = os.path.relpath
+
+    def relpath(path: Path, start: Path) -> str:
+        if path == dataset.folder.parent:
+            raise ValueError("path is on mount 'C:', start on mount 'E:'")
+        return relative(path, start)
+
+    monkeypatch.setattr(os.path, "relpath", relpath)
+    dataset.write("home.scene_dataset_config.json", {**DATASET, "stages": {"paths": {".json": [".."]}}})
+    assert loaded(dataset.scene(instance())).object(CHAIR)
+
+
 def test_files_above_assets_root_are_not_used(dataset: Dataset) -> None:
     """The dataset file and the objects lie outside `assets_root`."""
     with pytest.raises(SceneError, match="names the template 'stages/home'"):

@@ -279,7 +279,7 @@ def test_a_package_around_the_file_is_found(home: Path) -> None:
 
 
 def test_absolute_paths_inside_the_root_are_read(home: Path) -> None:
-    assert len(loaded(home, mesh(f"file://{home}/meshes/t.obj")).objects) == 1
+    assert len(loaded(home, mesh((home / "meshes" / "t.obj").as_uri())).objects) == 1
     assert len(loaded(home, mesh(f"{home}/meshes/t.obj")).objects) == 1
 
 

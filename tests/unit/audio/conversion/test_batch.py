@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -103,3 +105,18 @@ def test_an_output_file_of_unknown_format_is_refused(tmp_path: Path, name: str) 
     (made,) = audio.convert_files([tmp_path / "hum.wav"], tmp_path / name)
     assert isinstance(made, Conversion)
     assert made.output == tmp_path / name / "hum.wav"
+
+
+def test_a_script_without_a_guard_of_its_entry_gets_failures_with_advice(tmp_path: Path) -> None:
+    """Its workers end before they make the output folder."""
+    for i in range(2):
+        write(tmp_path / f"{i}.wav")
+    script = tmp_path / "unguarded.py"
+    script.write_text(
+        "import sys\nfrom scene2hap.audio import convert_files\n"
+        "for one in convert_files(sys.argv[2:], sys.argv[1], workers=2):\n    print(one.reason)\n",
+        encoding="utf-8",
+    )
+    command = [sys.executable, str(script), str(tmp_path / "out"), str(tmp_path / "0.wav"), str(tmp_path / "1.wav")]
+    run = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
+    assert run.stdout.count("__main__") == 2
