@@ -34,7 +34,7 @@ class CertificateIssuer:
         of: dict[str, Certificate],
     ) -> None:
         self._bodies, self._unsupported, self._broad_phase = pairs.bodies, unsupported, broad_phase
-        self._hung = pairs.hung
+        self._hinged = pairs.hinged
         self.of = of
         # From the id of a pinning body to the ids of the bodies whose certificates end when it moves.
         self._pinned: dict[str, set[str]] = {}
@@ -110,7 +110,7 @@ class CertificateIssuer:
             other = self._bodies[y]
             low, high = other.low, other.high
             is_below = low[0] < u1 and high[0] > u0 and low[flat] < v1 and high[flat] > v0 and high[up] > lowest
-            if is_below and not self._hung.are_chained(body.id, y):
+            if is_below and not self._hinged.are_chained(body.id, y):
                 below.append(other)
         below.sort(key=lambda other: (other.id not in held, other.size_m))
         for other in below:

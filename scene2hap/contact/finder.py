@@ -65,7 +65,7 @@ class ContactFinder:
         self, placed: list[Body], added: Sequence[Body], gone: Collection[str], found: dict[Pair, Junction | None]
     ) -> None:
         """Find the contacts of `placed` and `added` bodies, and of all bodies that these affect."""
-        bodies, issuer, hung = self._bodies, self._issuer, self._pairs.hung
+        bodies, issuer, hinged = self._bodies, self._issuer, self._pairs.hinged
         dirty: set[Pair] = set()
         recheck: set[str] = set()
         for x in gone:
@@ -73,17 +73,17 @@ class ContactFinder:
         for body in (*placed, *added):
             bodies[body.id] = body
         for body in added:
-            hung.add(body)
+            hinged.add(body)
         moving = {body.id for body in placed}
         changed = {*moving, *gone, *(body.id for body in added)}
-        placed += [bodies[x] for x in hung.update(changed) if x not in changed]
+        placed += [bodies[x] for x in hinged.update(changed) if x not in changed]
         for x, others in self._broad_phase.update([*placed, *added]).items():
             for y in others:
                 self._drop_pair(x, y, found, recheck)
         proven = {}
         pending = [*added]
         for body in placed:
-            is_free = body.id not in hung.on and issuer.may_be_issued(body.id)
+            is_free = body.id not in hinged.on and issuer.may_be_issued(body.id)
             junction = self._certify(body, moving, dirty, recheck) if is_free else None
             if junction is None:
                 pending.append(body)
@@ -149,8 +149,8 @@ class ContactFinder:
     def _pair_with_neighbours(self, body: Body, seen: set[str], dirty: set[Pair], recheck: set[str]) -> None:
         """Pair a body that moved with the bodies now near enough to touch it."""
         x, bodies, certificates, unsupported = body.id, self._bodies, self._issuer.of, self._unsupported
-        hung = self._pairs.hung
-        are_chained = hung.are_chained if hung.on else None
+        hinged = self._pairs.hinged
+        are_chained = hinged.are_chained if hinged.on else None
         body_pairs = self._pairs.of.setdefault(x, {})
         for y in self._broad_phase.neighbours[x]:
             if y in certificates:

@@ -26,10 +26,10 @@ def pivot_m(x: Body, y: Body) -> Triple | None:
     return ((a + d) / 2, (b + e) / 2, (c + f) / 2) if math.dist(here, there) < HINGE_PLAY_M else None
 
 
-class HungBodies:
-    """The bodies that hang on others by hinges at their present poses: `on` has the id of the other by their own.
+class HingedBodies:
+    """The bodies that hinges hold on others at their present poses: `on` has the id of the other by their own.
 
-    Bodies that hang on one another, directly or by others, are a chain. They touch at their hinges alone.
+    Bodies that hinges join, directly or by others, are a chain. They touch at their hinges alone.
 
     Parameters: bodies : all bodies, changed by the caller.
     """
@@ -38,14 +38,14 @@ class HungBodies:
         self._bodies = bodies
         self.on: dict[str, str] = {}
         # From the id of a body to those of the bodies with hinges to it.
-        self._hinged: dict[str, set[str]] = {}
-        # From the id of each hung body to that of the body on which its chain hangs.
+        self._with_hinge_to: dict[str, set[str]] = {}
+        # From the id of each of them to that of the first body of its chain.
         self._first: dict[str, str] = {}
 
     def add(self, body: Body) -> None:
         """Add a body that may have a hinge."""
         if body.hinge is not None:
-            self._hinged.setdefault(body.hinge.to, set()).add(body.id)
+            self._with_hinge_to.setdefault(body.hinge.to, set()).add(body.id)
 
     def are_chained(self, x: str, y: str) -> bool:
         """Return True if two bodies are of one chain."""
@@ -54,10 +54,10 @@ class HungBodies:
 
     def update(self, changed: Iterable[str]) -> list[str]:
         """Look again at bodies that were added, moved or removed. Returns the ids of those whose chain is another."""
-        if not self._hinged:
+        if not self._with_hinge_to:
             return []
         affected = set(changed)
-        affected.update(*(self._hinged.get(x, ()) for x in affected))
+        affected.update(*(self._with_hinge_to.get(x, ()) for x in affected))
         before = dict(self.on)
         for x in affected:
             self._update(x)

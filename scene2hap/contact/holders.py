@@ -84,7 +84,7 @@ class Holders:
         Returns its present holders and those before.
         """
         body = self._bodies[x]
-        pivot_on = self._pairs.hung.on.get(x)
+        pivot_on = self._pairs.hinged.on.get(x)
         if pivot_on is not None:
             return self._hold(x, {pivot_on: Bond(1.0, NO_WAY, None, False, x)}, is_supported=True)
         below, lies_on = self._below(body) if self._pairs.of[x] else ({}, ())
@@ -167,7 +167,7 @@ class Holders:
             y
             for y in self._near[x]
             if (other := bodies[y]).size_m > size_m
-            and not self._pairs.hung.are_chained(x, y)
+            and not self._pairs.hinged.are_chained(x, y)
             and y not in self._certified
             and not apart_by(body, other, reach_m)
             and self._space(body, other).empty_region is None

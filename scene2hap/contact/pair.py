@@ -13,7 +13,7 @@ from scene2hap.contact.body import Body, roles
 from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.vectors import Floats, Triple
-from scene2hap.contact.hinge import HungBodies, pivot_m
+from scene2hap.contact.hinge import HingedBodies, pivot_m
 from scene2hap.contact.lazy import lazy
 from scene2hap.contact.level import Rest, rest_on
 from scene2hap.contact.mesh_distance import Gap, MeshPair
@@ -26,17 +26,17 @@ NEEDS_TRIANGLES = Rest(math.nan, False, math.nan)
 class BodyPair:
     """Narrow-phase answers for two posed bodies, computed once and kept until either moves; `a` has the lower id.
 
-    Parameters: hung : the bodies that hang by hinges, which do not rest on others.
+    Parameters: hinged : the bodies that hinges hold, which do not rest on others.
     """
 
-    def __init__(self, a: Body, b: Body, hung: Container[str] = ()) -> None:
+    def __init__(self, a: Body, b: Body, hinged: Container[str] = ()) -> None:
         self.a: Body = a
         self.b: Body = b
         self.space: FreeSpace = FreeSpace(*roles(a, b))
         self.pivot_m: Triple | None = None if a.hinge is None and b.hinge is None else pivot_m(a, b)
         # At least one of the two cannot rest on the other.
-        rest = None if a.id in hung or self.pivot_m else rest_of(a, b, self.space)
-        is_held = rest is not None or b.id in hung or self.pivot_m is not None
+        rest = None if a.id in hinged or self.pivot_m else rest_of(a, b, self.space)
+        is_held = rest is not None or b.id in hinged or self.pivot_m is not None
         self.rests: tuple[Rest | None, Rest | None] = (rest, None if is_held else rest_of(b, a, self.space))
         self._falls: dict[str, Floats | None] = {}
         self._first_falls_m: dict[str, float] = {}
@@ -46,9 +46,9 @@ class BodyPair:
         self._gap: Gap | None = None
 
     @classmethod
-    def of(cls, x: Body, y: Body, hung: Container[str]) -> BodyPair:
+    def of(cls, x: Body, y: Body, hinged: Container[str]) -> BodyPair:
         """Build the pair of two bodies, given in any order."""
-        return cls(x, y, hung) if x.id < y.id else cls(y, x, hung)
+        return cls(x, y, hinged) if x.id < y.id else cls(y, x, hinged)
 
     def rest(self, x: str) -> Rest | None:
         """Return how x, one of the two ids, may rest on the other; see `rest_of`."""
@@ -112,11 +112,11 @@ class BodyPairs:
     def __init__(self) -> None:
         self.bodies: dict[str, Body] = {}
         self.of: dict[str, dict[str, BodyPair]] = {}
-        self.hung: HungBodies = HungBodies(self.bodies)
+        self.hinged: HingedBodies = HingedBodies(self.bodies)
 
     def made(self, x: Body, y: Body) -> BodyPair:
         """Return the pair of two bodies at their present poses, without adding it."""
-        return BodyPair.of(x, y, self.hung.on)
+        return BodyPair.of(x, y, self.hinged.on)
 
     def add(self, body_pair: BodyPair) -> BodyPair:
         """Add a pair, in the place of one of the same bodies. Returns the pair."""

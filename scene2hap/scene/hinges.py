@@ -76,8 +76,8 @@ def chains(objects: Sequence[SceneObject]) -> dict[str, Chain]:
 
 
 def firsts(on: Mapping[str, str]) -> dict[str, str]:
-    """Return the id of the object on which the chain of each held object hangs, by its own id. Objects that hang on
-    each other have the least id of their ring.
+    """Return the id of the first object of the chain of each held object, by its own id. Objects that hold each other
+    have the least id of their ring.
 
     Parameters: on : the id of the object that holds each held object.
     """

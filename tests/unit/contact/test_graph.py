@@ -141,9 +141,9 @@ def test_bodies_at_rest_are_not_searched(monkeypatch: pytest.MonkeyPatch) -> Non
         met.append({a.id, b.id})
         made(self, a, b)
 
-    def tied(self: finder.BodyPair, a: Body, b: Body, *hung: Container[str]) -> None:
+    def tied(self: finder.BodyPair, a: Body, b: Body, *hinged: Container[str]) -> None:
         met.append({a.id, b.id})
-        paired(self, a, b, *hung)
+        paired(self, a, b, *hinged)
 
     monkeypatch.setattr(MeshPair, "__init__", watched)
     monkeypatch.setattr(finder.BodyPair, "__init__", tied)
