@@ -63,8 +63,8 @@ def _links(chain_names: tuple[str, ...], n_in_series: int) -> tuple[str, ...] | 
 
 
 def _is_link(name: str) -> bool:
-    """Return True if a name is that of a robot or of its link, with the word "link" or without. An arm or a leg alone is
-    none: lamps and tables have them."""
+    """Return True if a name is that of a robot or of its link, with the word "link" or without. An arm or a leg alone
+    is none: lamps and tables have them."""
     reading = read_name(name)
     if reading.row is None or reading.head in words.LINK_NOUNS:
         reading = _as_link(name)
