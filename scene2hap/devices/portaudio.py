@@ -19,6 +19,8 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import Any
 
+import numpy as np
+
 from scene2hap.errors import DeviceError, DeviceNotFound, MissingExtra
 
 _LOCK = threading.RLock()
@@ -110,19 +112,24 @@ def open_stream(
     block_frames: int,
     play: Callable[..., None],
 ) -> Any:
-    """Return a started `sounddevice.OutputStream`. Raises: DeviceError."""
+    """Return a started `sounddevice.RawOutputStream`. Raises: DeviceError.
+
+    `play` gets an array (n_frames, n_channels) to fill, the number of frames, their time and their status.
+    """
     with _LOCK:
         sd = _sounddevice()
+        callback = _with_arrays(play, n_channels)
         with _translated(card):
             return _started(
-                sd.OutputStream(rate_hz, block_frames, card.index, n_channels, "float32", latency, callback=play)
+                sd.RawOutputStream(rate_hz, block_frames, card.index, n_channels, "float32", latency, callback=callback)
             )
 
 
 def open_recording(
     card: Card, n_channels: int, rate_hz: int, block_frames: int, hear: Callable[..., None]
 ) -> tuple[Any, int]:
-    """Return a started `sounddevice.InputStream`, and its rate [Hz]: the card's own if the wanted one is not possible.
+    """Return a started `sounddevice.RawInputStream`, and its rate [Hz]: the card's own if the wanted one is not
+    possible. `hear` gets the arguments of `open_stream`'s `play`.
 
     Raises: DeviceError.
     """
@@ -133,8 +140,21 @@ def open_recording(
         except (sd.PortAudioError, ValueError):
             rate_hz = card.rate_hz
         with _translated(card):
-            stream = sd.InputStream(rate_hz, block_frames, card.index, n_channels, "float32", "low", callback=hear)
+            callback = _with_arrays(hear, n_channels)
+            stream = sd.RawInputStream(
+                rate_hz, block_frames, card.index, n_channels, "float32", "low", callback=callback
+            )
             return _started(stream), rate_hz
+
+
+def _with_arrays(callback: Callable[..., None], n_channels: int) -> Callable[..., None]:
+    """Return the callback of a raw stream. The arrays of sounddevice's other streams raise a DeprecationWarning in
+    every block under NumPy 2.5."""
+
+    def with_buffer(buffer: Any, n_frames: int, when: Any, status: Any) -> None:
+        callback(np.frombuffer(buffer, dtype=np.float32).reshape(n_frames, n_channels), n_frames, when, status)
+
+    return with_buffer
 
 
 def is_active(stream: Any) -> bool:
