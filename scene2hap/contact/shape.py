@@ -4,9 +4,8 @@ faces and ledges)."""
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
 from typing import TypeVar
-from weakref import WeakValueDictionary
+from weakref import WeakValueDictionary, finalize
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +16,7 @@ from scene2hap.contact.geometry.features import Features, features_of
 from scene2hap.contact.geometry.rays import first_hits
 from scene2hap.contact.geometry.triangle_tree import TriangleTree
 from scene2hap.contact.geometry.vectors import Floats, Triple
+from scene2hap.contact.lazy import lazy
 from scene2hap.contact.ledge import Ledges, Upright
 from scene2hap.scene.shapes import TriMesh
 
@@ -48,13 +48,16 @@ class Shape:
         self._ledges: dict[Upright, Ledges] = {}
         self._radii: dict[int, float] = {}
 
-    @cached_property
+    @lazy
     def tree(self) -> TriangleTree:
         """A bounding volume hierarchy over the triangles."""
         return TriangleTree.over(self.triangles, self.boxes, self.features)
 
     def prepare(self) -> None:
-        """Derive what contacts by triangles need, which else the first of them does. May run on another thread."""
+        """Derive what contacts by triangles need, which else the first of them does. May run on another thread.
+
+        Nothing is locked: a thread that needs the same meanwhile derives it too, with the same result.
+        """
         _ = self.tree, self.sides
 
     @property
@@ -62,12 +65,12 @@ class Shape:
         """True if `prepare` has nothing left to do."""
         return {"tree", "sides"} <= self.__dict__.keys()
 
-    @cached_property
+    @lazy
     def features(self) -> Features:
         """The corners and edges that the narrow phase tests."""
         return features_of(self.triangles)
 
-    @cached_property
+    @lazy
     def sides(self) -> Floats:
         """The first points of the surface that a grid of rays hits from each side of the box, (6, 64, 3) [m].
 
@@ -121,18 +124,24 @@ class Shape:
         return known[up]
 
 
-# Copies of an object and sessions over one scene share a shape, which lives as long as a body uses it.
+# Copies of an object and sessions over one scene share a shape. It lives as long as a mesh of its content, or a body
+# that uses it: copies of a prefab that come and go do not derive it again.
 _shapes: WeakValueDictionary[str, Shape] = WeakValueDictionary()
+# By id(mesh): of two equal meshes, either may die first.
+_of_mesh: dict[int, Shape] = {}
 
 
 def shape_of(mesh: TriMesh) -> Shape:
     """Return the shape of a mesh; equal meshes share one."""
-    shape = _shapes.get(mesh.digest)
+    shape = _of_mesh.get(id(mesh))
     if shape is None:
-        solid = _without_lines(mesh)
-        triangles = np.ascontiguousarray(solid.vertices_m[solid.faces].transpose(2, 1, 0))
-        shape = Shape(triangles, solid.corners_m)
-        _shapes[mesh.digest] = shape
+        shape = _shapes.get(mesh.digest)
+        if shape is None:
+            solid = _without_lines(mesh)
+            triangles = np.ascontiguousarray(solid.vertices_m[solid.faces].transpose(2, 1, 0))
+            shape = _shapes[mesh.digest] = Shape(triangles, solid.corners_m)
+        _of_mesh[id(mesh)] = shape
+        finalize(mesh, _of_mesh.pop, id(mesh), None).atexit = False
     return shape
 
 

@@ -1,17 +1,21 @@
-"""Detailed meshes are prepared in the background, once, and contacts do not depend on it."""
+"""Meshes are prepared in the background or in a loading screen, once, and contacts do not depend on it."""
 
 from __future__ import annotations
 
 import gc
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from threading import Event
 from typing import Any
+from weakref import ref
 
 import numpy as np
 import pytest
 import trimesh
 
-from scene2hap import Box, HapticSession, Pose, SceneObject, SceneSnapshot, TriMesh, bake
+from scene2hap import Box, HapticSession, Pose, SceneObject, SceneSnapshot, TriMesh, bake, bake_object
+from scene2hap.contact.geometry.triangle_tree import TriangleTree
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.scene.objects import Contact
@@ -32,13 +36,24 @@ def scene(meshes: Sequence[TriMesh], **given: Any) -> SceneSnapshot:
     return SceneSnapshot.build([floor, *balls], **given)
 
 
-def test_a_session_prepares_its_detailed_meshes() -> None:
+def test_a_loading_screen_prepares_all_meshes_and_a_worker_the_detailed_ones() -> None:
     detailed, few = ball(0), ball(1, subdivisions=1)
     assert len(few.faces) < FEW_TRIANGLES <= len(detailed.faces)
     with HapticSession(made := scene([detailed, few]), bake(made)) as session:
-        assert session.wait_prepared(30)
+        (worker,) = session._shapes._workers
+        worker.join(30)
         assert shape_of(detailed).is_prepared
         assert not shape_of(few).is_prepared
+        assert session.wait_prepared(30)
+        assert shape_of(few).is_prepared
+
+
+def test_blocking_sessions_prepare_in_the_loading_screen() -> None:
+    mesh = ball(4)
+    with HapticSession(made := scene([mesh]), bake(made), {"prepare": "blocking"}) as session:
+        assert not shape_of(mesh).is_prepared
+        assert session.wait_prepared(30)
+        assert shape_of(mesh).is_prepared
 
 
 def test_added_objects_are_prepared() -> None:
@@ -49,16 +64,69 @@ def test_added_objects_are_prepared() -> None:
         assert shape_of(later).is_prepared
 
 
-@pytest.mark.parametrize("why", ["blocking", "given contacts"])
-def test_nothing_is_prepared_where_it_is_not_wanted(why: str) -> None:
-    mesh = ball(4)
-    made = scene([mesh])
-    if why == "given contacts":
-        made = replace(made, contacts=(Contact("ball0", "wooden floor", (0.0, 0.0, 0.0)),))
-    config = {"prepare": "blocking"} if why == "blocking" else {}
-    with HapticSession(made, bake(made), config) as session:
+def test_nothing_is_prepared_where_contacts_are_given() -> None:
+    mesh = ball(10)
+    made = replace(scene([mesh]), contacts=(Contact("ball0", "wooden floor", (0.0, 0.0, 0.0)),))
+    with HapticSession(made, bake(made)) as session:
         assert session.wait_prepared(30)
         assert not shape_of(mesh).is_prepared
+
+
+def test_a_wave_of_copies_starts_one_worker(monkeypatch: pytest.MonkeyPatch) -> None:
+    go_on, ordered = Event(), []
+    monkeypatch.setattr(Shape, "prepare", lambda shape: ordered.append(shape) or go_on.wait(30))
+    shapes, mesh = PreparedShapes(is_wanted=True, in_background=True), ball(11)
+    kept = shape_of(mesh)
+    for _ in range(20):
+        shapes.order([mesh])
+    assert len(shapes._workers) == 1
+    go_on.set()
+    assert shapes.wait(Deadline(30))
+    assert set(ordered) == {kept}
+
+
+def test_a_shape_is_kept_for_later_copies() -> None:
+    prefab = bake_object(SceneObject("rock", geometry=ball(12)))
+    with HapticSession(made := scene([ball(13)]), bake(made)) as session:
+        session.spawn(prefab, "rock 1", Pose((1.5, 0.5, 0.0)))
+        assert session.wait_prepared(30)
+        session.remove("rock 1")
+    gc.collect()
+    (item,) = prefab.snapshot.objects
+    assert shape_of(item.geometry.mesh).is_prepared
+
+
+def test_a_shape_is_freed_with_its_last_mesh() -> None:
+    mesh, same = ball(14), ball(14)
+    shape = ref(shape_of(mesh))
+    assert shape_of(same) is shape()
+    del mesh
+    assert shape() is shape_of(same)
+    del same
+    assert shape() is None
+
+
+def test_no_mesh_waits_for_another(monkeypatch: pytest.MonkeyPatch) -> None:
+    begun, go_on, over = Event(), Event(), TriangleTree.over
+
+    def slow(*given: Any) -> TriangleTree:
+        if not begun.is_set():
+            begun.set()
+            go_on.wait(30)
+        return over(*given)
+
+    monkeypatch.setattr(TriangleTree, "over", slow)
+    detailed, other = ball(15), ball(16)
+    shapes = PreparedShapes(is_wanted=True, in_background=True)
+    shapes.order([detailed])
+    assert begun.wait(30)
+    with ThreadPoolExecutor(1) as game:
+        found = game.submit(lambda: shape_of(other).tree)
+        try:
+            found.result(10)
+        finally:
+            go_on.set()
+    assert shapes.wait(Deadline(30))
 
 
 def test_copies_are_prepared_once(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -66,10 +134,11 @@ def test_copies_are_prepared_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Shape, "prepare", lambda shape: prepared.append(shape))
     meshes = [ball(5), ball(6), ball(5)]
     kept = [shape_of(mesh) for mesh in meshes]
-    shapes = PreparedShapes(is_wanted=True)
+    shapes = PreparedShapes(is_wanted=True, in_background=True)
     shapes.order(meshes)
     assert shapes.wait(Deadline(30))
-    assert len(prepared) == 2
+    # By a worker, and asked again by `wait`, which finds nothing left to do.
+    assert len(prepared) == 4
     assert set(prepared) == set(kept)
 
 
@@ -77,7 +146,8 @@ def test_contacts_are_the_same_before_and_after() -> None:
     path = [{"ball0": Pose((0.4 * k / 10, 0.3 - 0.02 * k, 0.01 * k))} for k in range(11)]
     found = []
     for is_prepared in (False, True):
-        gc.collect()  # shapes live as long as a graph uses them
+        mesh = graph = None
+        gc.collect()  # shapes live as long as a mesh or a graph
         mesh = ball(7)
         graph = ContactGraph(scene([mesh, ball(8)]))
         if is_prepared:
@@ -88,11 +158,9 @@ def test_contacts_are_the_same_before_and_after() -> None:
 
 
 def test_a_timeout_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
-    from threading import Event
-
     go_on = Event()
     monkeypatch.setattr(Shape, "prepare", lambda shape: go_on.wait(30))
-    kept, shapes = shape_of(mesh := ball(9)), PreparedShapes(is_wanted=True)
+    kept, shapes = shape_of(mesh := ball(9)), PreparedShapes(is_wanted=True, in_background=True)
     shapes.order([mesh])
     assert not shapes.wait(Deadline(0.01))
     go_on.set()
