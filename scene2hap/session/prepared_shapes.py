@@ -1,4 +1,4 @@
-"""Meshes, prepared in the background or in a loading screen, so that the first motion near one delays no frame.
+"""Meshes, prepared in the background, so that the first motion near one delays no frame.
 
 Contacts by triangles need a search tree over each mesh. Building it takes some 4 us per triangle, once for all copies.
 Contacts that need it earlier build it themselves, with the same result.
@@ -6,7 +6,8 @@ Contacts that need it earlier build it themselves, with the same result.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections import deque
+from collections.abc import Iterable
 from functools import partial
 from threading import Event, Thread
 from weakref import WeakSet
@@ -16,42 +17,40 @@ from scene2hap.scene.shapes import TriMesh
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.worker_threads import start_worker
 
-FEW_TRIANGLES = 1000
-"""A mesh of fewer is prepared by `wait`, or when it is needed, which takes 2 to 6 ms, once. Many small ones in the
-background would hold Python's interpreter lock, and so delay the frames of a game that has begun."""
-
 _ENDING = Event()
 
 
 class PreparedShapes:
-    """The shapes of a session's meshes, of which workers prepare the detailed ones if `in_background`; without
-    `is_wanted` nothing is prepared."""
+    """The shapes of a session's meshes, which a worker prepares if `in_background`, or else `wait`; without `is_wanted`
+    nothing is prepared."""
 
     def __init__(self, *, is_wanted: bool, in_background: bool) -> None:
         self._is_wanted, self._in_background = is_wanted, in_background
-        self._workers: list[Thread] = []
         self._ordered: WeakSet[Shape] = WeakSet()
+        self._waiting: deque[Shape] = deque()
+        self._worker: Thread | None = None
 
     def order(self, meshes: Iterable[TriMesh]) -> None:
-        """Let a worker prepare the detailed ones of these meshes, the largest first; each is ordered once."""
+        """Let the worker prepare these meshes, the largest first; each is ordered once."""
         if not self._is_wanted:
             return
         new = [shape for shape in {shape_of(mesh) for mesh in meshes} if shape not in self._ordered]
         self._ordered.update(new)
         if not self._in_background:
             return
-        detailed = [one for one in new if one.triangles.shape[2] >= FEW_TRIANGLES and not one.is_prepared]
-        self._workers = [worker for worker in self._workers if worker.is_alive()]
-        if detailed:
-            detailed.sort(key=lambda one: -one.triangles.shape[2])
-            self._workers.append(start_worker(partial(_prepare, detailed), "shapes", _ENDING.set))
+        unprepared = [shape for shape in new if not shape.is_prepared]
+        self._waiting += sorted(unprepared, key=lambda shape: -shape.triangles.shape[2])
+        # Starting a thread may take milliseconds, so that a wave of spawned objects has one. `wait` prepares what a
+        # worker does not see that ends at this moment.
+        if self._waiting and (self._worker is None or not self._worker.is_alive()):
+            self._worker = start_worker(partial(_prepare, self._waiting), "shapes", _ENDING.set)
 
     def wait(self, end: Deadline) -> bool:
-        """Wait for the workers, and prepare the other shapes here; false after the deadline."""
-        for worker in self._workers:
-            worker.join(end.left_s)
-        if any(worker.is_alive() for worker in self._workers):
-            return False
+        """Wait for the worker, and prepare here what it has not; false after the deadline."""
+        if self._worker is not None:
+            self._worker.join(end.left_s)
+            if self._worker.is_alive():
+                return False
         for shape in self._ordered:
             if end.left_s == 0.0:
                 return False
@@ -59,8 +58,6 @@ class PreparedShapes:
         return True
 
 
-def _prepare(shapes: Sequence[Shape]) -> None:
-    for shape in shapes:
-        if _ENDING.is_set():
-            return
-        shape.prepare()
+def _prepare(waiting: deque[Shape]) -> None:
+    while waiting and not _ENDING.is_set():
+        waiting.popleft().prepare()

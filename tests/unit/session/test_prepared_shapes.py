@@ -19,8 +19,10 @@ from scene2hap.contact.geometry.triangle_tree import TriangleTree
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.scene.objects import Contact
+from scene2hap.session import prepared_shapes
 from scene2hap.session.deadline import Deadline
-from scene2hap.session.prepared_shapes import FEW_TRIANGLES, PreparedShapes
+from scene2hap.session.prepared_shapes import PreparedShapes
+from scene2hap.session.worker_threads import start_worker
 
 
 def ball(seed: int, subdivisions: int = 3) -> TriMesh:
@@ -36,16 +38,20 @@ def scene(meshes: Sequence[TriMesh], **given: Any) -> SceneSnapshot:
     return SceneSnapshot.build([floor, *balls], **given)
 
 
-def test_a_loading_screen_prepares_all_meshes_and_a_worker_the_detailed_ones() -> None:
-    detailed, few = ball(0), ball(1, subdivisions=1)
-    assert len(few.faces) < FEW_TRIANGLES <= len(detailed.faces)
-    with HapticSession(made := scene([detailed, few]), bake(made)) as session:
-        (worker,) = session._shapes._workers
-        worker.join(30)
-        assert shape_of(detailed).is_prepared
-        assert not shape_of(few).is_prepared
+def test_a_session_prepares_its_meshes() -> None:
+    meshes = [ball(0), ball(1, subdivisions=1)]
+    with HapticSession(made := scene(meshes), bake(made)) as session:
         assert session.wait_prepared(30)
-        assert shape_of(few).is_prepared
+        assert all(shape_of(mesh).is_prepared for mesh in meshes)
+
+
+def test_workers_prepare_without_a_loading_screen() -> None:
+    meshes = [ball(17), ball(18, subdivisions=1)]
+    kept, shapes = [shape_of(mesh) for mesh in meshes], PreparedShapes(is_wanted=True, in_background=True)
+    shapes.order(meshes)
+    assert shapes._worker is not None
+    shapes._worker.join(30)
+    assert all(shape.is_prepared for shape in kept)
 
 
 def test_blocking_sessions_prepare_in_the_loading_screen() -> None:
@@ -72,17 +78,18 @@ def test_nothing_is_prepared_where_contacts_are_given() -> None:
         assert not shape_of(mesh).is_prepared
 
 
-def test_a_wave_of_copies_starts_one_worker(monkeypatch: pytest.MonkeyPatch) -> None:
-    go_on, ordered = Event(), []
-    monkeypatch.setattr(Shape, "prepare", lambda shape: ordered.append(shape) or go_on.wait(30))
-    shapes, mesh = PreparedShapes(is_wanted=True, in_background=True), ball(11)
-    kept = shape_of(mesh)
-    for _ in range(20):
+def test_a_wave_of_spawned_objects_starts_one_worker(monkeypatch: pytest.MonkeyPatch) -> None:
+    go_on, started = Event(), []
+    monkeypatch.setattr(Shape, "prepare", lambda shape: go_on.wait(30))
+    monkeypatch.setattr(prepared_shapes, "start_worker", lambda *given: started.append(given) or start_worker(*given))
+    shapes = PreparedShapes(is_wanted=True, in_background=True)
+    meshes = [ball(11), ball(19), ball(20)]
+    for mesh in meshes * 7:
         shapes.order([mesh])
-    assert len(shapes._workers) == 1
+    assert len(started) == 1
     go_on.set()
     assert shapes.wait(Deadline(30))
-    assert set(ordered) == {kept}
+    assert not shapes._waiting
 
 
 def test_a_shape_is_kept_for_later_copies() -> None:
