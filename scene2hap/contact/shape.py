@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from typing import TypeVar
-from weakref import WeakValueDictionary, finalize
+from weakref import WeakValueDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -124,24 +124,18 @@ class Shape:
         return known[up]
 
 
-# Copies of an object and sessions over one scene share a shape. It lives as long as a mesh of its content, or a body
-# that uses it: copies of a prefab that come and go do not derive it again.
+# Copies of an object and sessions over one scene share a shape, which lives as long as a body uses it.
 _shapes: WeakValueDictionary[str, Shape] = WeakValueDictionary()
-# By id(mesh): of two equal meshes, either may die first.
-_of_mesh: dict[int, Shape] = {}
 
 
 def shape_of(mesh: TriMesh) -> Shape:
     """Return the shape of a mesh; equal meshes share one."""
-    shape = _of_mesh.get(id(mesh))
+    shape = _shapes.get(mesh.digest)
     if shape is None:
-        shape = _shapes.get(mesh.digest)
-        if shape is None:
-            solid = _without_lines(mesh)
-            triangles = np.ascontiguousarray(solid.vertices_m[solid.faces].transpose(2, 1, 0))
-            shape = _shapes[mesh.digest] = Shape(triangles, solid.corners_m)
-        _of_mesh[id(mesh)] = shape
-        finalize(mesh, _of_mesh.pop, id(mesh), None).atexit = False
+        solid = _without_lines(mesh)
+        triangles = np.ascontiguousarray(solid.vertices_m[solid.faces].transpose(2, 1, 0))
+        shape = Shape(triangles, solid.corners_m)
+        _shapes[mesh.digest] = shape
     return shape
 
 

@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Iterable
 from functools import partial
 from threading import Event, Thread
-from weakref import WeakSet
+from weakref import WeakKeyDictionary
 
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.scene.shapes import TriMesh
@@ -26,7 +26,8 @@ class PreparedShapes:
 
     def __init__(self, *, is_wanted: bool, in_background: bool) -> None:
         self._is_wanted, self._in_background = is_wanted, in_background
-        self._ordered: WeakSet[Shape] = WeakSet()
+        # Keeps each shape as long as its mesh lives: copies of a prefab come and go.
+        self._ordered: WeakKeyDictionary[TriMesh, Shape] = WeakKeyDictionary()
         self._waiting: deque[Shape] = deque()
         self._worker: Thread | None = None
 
@@ -34,11 +35,11 @@ class PreparedShapes:
         """Let the worker prepare these meshes, the largest first; each is ordered once."""
         if not self._is_wanted:
             return
-        new = [shape for shape in {shape_of(mesh) for mesh in meshes} if shape not in self._ordered]
+        new = {mesh: shape_of(mesh) for mesh in meshes if mesh not in self._ordered}
         self._ordered.update(new)
         if not self._in_background:
             return
-        unprepared = [shape for shape in new if not shape.is_prepared]
+        unprepared = [shape for shape in new.values() if not shape.is_prepared]
         self._waiting += sorted(unprepared, key=lambda shape: -shape.triangles.shape[2])
         # Starting a thread may take milliseconds, so that a wave of spawned objects has one. `wait` prepares what a
         # worker does not see that ends at this moment.
@@ -51,7 +52,7 @@ class PreparedShapes:
             self._worker.join(end.left_s)
             if self._worker.is_alive():
                 return False
-        for shape in self._ordered:
+        for shape in self._ordered.values():
             if end.left_s == 0.0:
                 return False
             shape.prepare()

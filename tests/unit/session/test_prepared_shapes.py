@@ -18,6 +18,7 @@ from scene2hap import Box, HapticSession, Pose, SceneObject, SceneSnapshot, TriM
 from scene2hap.contact.geometry.triangle_tree import TriangleTree
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.shape import Shape, shape_of
+from scene2hap.scene import objects
 from scene2hap.scene.objects import Contact
 from scene2hap.session import prepared_shapes
 from scene2hap.session.deadline import Deadline
@@ -92,24 +93,29 @@ def test_a_wave_of_spawned_objects_starts_one_worker(monkeypatch: pytest.MonkeyP
     assert not shapes._waiting
 
 
-def test_a_shape_is_kept_for_later_copies() -> None:
+def test_a_shape_is_kept_for_later_copies_as_long_as_its_mesh_lives() -> None:
     prefab = bake_object(SceneObject("rock", geometry=ball(12)))
     with HapticSession(made := scene([ball(13)]), bake(made)) as session:
         session.spawn(prefab, "rock 1", Pose((1.5, 0.5, 0.0)))
         assert session.wait_prepared(30)
         session.remove("rock 1")
+        gc.collect()
+        (item,) = prefab.snapshot.objects
+        shape = ref(shape_of(item.geometry.mesh))
+        assert shape().is_prepared
+        del prefab, item
+        objects._measured.cache_clear()  # which keeps the newest meshes
+        gc.collect()
+        assert shape() is None
+
+
+def test_shapes_are_freed_with_their_session() -> None:
+    made = scene([mesh := ball(14)])
+    with HapticSession(made, bake(made)) as session:
+        assert session.wait_prepared(30)
+        shape = ref(shape_of(mesh))
+    del session
     gc.collect()
-    (item,) = prefab.snapshot.objects
-    assert shape_of(item.geometry.mesh).is_prepared
-
-
-def test_a_shape_is_freed_with_its_last_mesh() -> None:
-    mesh, same = ball(14), ball(14)
-    shape = ref(shape_of(mesh))
-    assert shape_of(same) is shape()
-    del mesh
-    assert shape() is shape_of(same)
-    del same
     assert shape() is None
 
 
@@ -153,8 +159,7 @@ def test_contacts_are_the_same_before_and_after() -> None:
     path = [{"ball0": Pose((0.4 * k / 10, 0.3 - 0.02 * k, 0.01 * k))} for k in range(11)]
     found = []
     for is_prepared in (False, True):
-        mesh = graph = None
-        gc.collect()  # shapes live as long as a mesh or a graph
+        gc.collect()  # shapes live as long as a graph uses them
         mesh = ball(7)
         graph = ContactGraph(scene([mesh, ball(8)]))
         if is_prepared:
