@@ -6,7 +6,7 @@ import gc
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from threading import Event
+from threading import Event, Thread
 from typing import Any
 from weakref import ref
 
@@ -81,8 +81,13 @@ def test_nothing_is_prepared_where_contacts_are_given() -> None:
 
 def test_a_wave_of_spawned_objects_starts_one_worker(monkeypatch: pytest.MonkeyPatch) -> None:
     go_on, started = Event(), []
+
+    def start(*given: Any) -> Thread:
+        started.append(given)
+        return start_worker(*given)
+
     monkeypatch.setattr(Shape, "prepare", lambda shape: go_on.wait(30))
-    monkeypatch.setattr(prepared_shapes, "start_worker", lambda *given: started.append(given) or start_worker(*given))
+    monkeypatch.setattr(prepared_shapes, "start_worker", start)
     shapes = PreparedShapes(is_wanted=True, in_background=True)
     meshes = [ball(11), ball(19), ball(20)]
     for mesh in meshes * 7:
@@ -102,7 +107,7 @@ def test_a_shape_is_kept_for_later_copies_as_long_as_its_mesh_lives() -> None:
         gc.collect()
         (item,) = prefab.snapshot.objects
         shape = ref(shape_of(item.geometry.mesh))
-        assert shape().is_prepared
+        assert shape_of(item.geometry.mesh).is_prepared
         del prefab, item
         objects._measured.cache_clear()  # which keeps the newest meshes
         gc.collect()
