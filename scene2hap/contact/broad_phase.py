@@ -114,7 +114,8 @@ class BroadPhase:
     def _add_columns(self, ids: Sequence[str]) -> None:
         self._columns.update(zip(ids, range(len(self._ids), len(self._ids) + len(ids)), strict=True))
         self._ids += ids
-        self._fat_boxes = Boxes(*(np.pad(ends, ((0, 0), (0, len(ids)))) for ends in self._fat_boxes))
+        room = np.zeros((3, len(ids)))
+        self._fat_boxes = Boxes(*(np.concatenate([ends, room], axis=1) for ends in self._fat_boxes))
 
     def _found_neighbours(self, ids: Sequence[str]) -> dict[str, set[str]]:
         """Return the ids of the bodies whose fat boxes overlap those of some bodies, touching included."""

@@ -4,7 +4,6 @@ faces and ledges)."""
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
 from typing import TypeVar
 from weakref import WeakValueDictionary
 
@@ -17,6 +16,7 @@ from scene2hap.contact.geometry.features import Features, features_of
 from scene2hap.contact.geometry.rays import first_hits
 from scene2hap.contact.geometry.triangle_tree import TriangleTree
 from scene2hap.contact.geometry.vectors import Floats, Triple
+from scene2hap.contact.lazy import lazy
 from scene2hap.contact.ledge import Ledges, Upright
 from scene2hap.scene.shapes import TriMesh
 
@@ -48,13 +48,16 @@ class Shape:
         self._ledges: dict[Upright, Ledges] = {}
         self._radii: dict[int, float] = {}
 
-    @cached_property
+    @lazy
     def tree(self) -> TriangleTree:
         """A bounding volume hierarchy over the triangles."""
         return TriangleTree.over(self.triangles, self.boxes, self.features)
 
     def prepare(self) -> None:
-        """Derive what contacts by triangles need, which else the first of them does. May run on another thread."""
+        """Derive what contacts by triangles need, which else the first of them does. May run on another thread.
+
+        Nothing is locked: a thread that needs the same meanwhile derives it too, with the same result.
+        """
         _ = self.tree, self.sides
 
     @property
@@ -62,12 +65,12 @@ class Shape:
         """True if `prepare` has nothing left to do."""
         return {"tree", "sides"} <= self.__dict__.keys()
 
-    @cached_property
+    @lazy
     def features(self) -> Features:
         """The corners and edges that the narrow phase tests."""
         return features_of(self.triangles)
 
-    @cached_property
+    @lazy
     def sides(self) -> Floats:
         """The first points of the surface that a grid of rays hits from each side of the box, (6, 64, 3) [m].
 

@@ -274,6 +274,8 @@ def with_relative_heights(objects: list[SceneObject], up_axis: UpAxis) -> tuple[
     up = VERTICAL[up_axis]
     bottoms = [float(item.bounds_m[0, up]) for item in objects]
     ground = min(bottoms, default=0.0)
+    heights = [bottom - ground for bottom in bottoms]
     return tuple(
-        replace(item, relative_height_m=bottom - ground) for item, bottom in zip(objects, bottoms, strict=True)
+        item if item.relative_height_m == height else replace(item, relative_height_m=height)
+        for item, height in zip(objects, heights, strict=True)
     )

@@ -149,7 +149,13 @@ class SceneSnapshot(SceneData):
         """Move some objects. Returns a scene with new heights, without given contacts and images."""
         for object_id in moved:
             self.object(object_id)
-        objects = [replace(item, pose=moved.get(item.id, item.pose), images=None) for item in self.objects]
+        # Objects that stay keep the bounds that they have derived.
+        objects = [
+            item
+            if item.images is None and (pose := moved.get(item.id, item.pose)) == item.pose
+            else replace(item, pose=pose, images=None)
+            for item in self.objects
+        ]
         return SceneSnapshot(self.name, self.up_axis, with_relative_heights(objects, self.up_axis))
 
     def check(self) -> tuple[Finding, ...]:

@@ -126,8 +126,8 @@ class HapticSession:
                 self._sources.add(object_id, loops, bundle.objects.get(object_id), _level(bundle, object_id))
         follows_outlines = bool(getattr(self.config.propagation, "follows_outlines", False))
         self._state = SceneState(scene, bundle, follows_outlines=follows_outlines)
-        finds_contacts = scene.contacts is None
-        self._shapes = PreparedShapes(is_wanted=finds_contacts and self.config.prepare == "background")
+        in_background = self.config.prepare == "background"
+        self._shapes = PreparedShapes(is_wanted=scene.contacts is None, in_background=in_background)
         self._shapes.order(item.geometry.mesh for item in scene.objects)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
         self._switching = Switching(self._sources, self._playback, self._state, self.config.sample_rate_hz)
@@ -492,7 +492,7 @@ class HapticSession:
         )
 
     def wait_prepared(self, timeout_s: float | None = None) -> bool:
-        """Wait until workers have prepared the present scene, all loops and all detailed meshes, for loading screens.
+        """Wait until the present scene, all loops and all meshes are prepared, for loading screens.
 
         Returns: False after the timeout [s]. True also if the model cannot prepare the scene (`stats.fields_failed`).
         """

@@ -1,4 +1,4 @@
-"""Detailed meshes, prepared in the background, so that the first motion near one delays no frame.
+"""Meshes, prepared in the background, so that the first motion near one delays no frame.
 
 Contacts by triangles need a search tree over each mesh. Building it takes some 4 us per triangle, once for all copies.
 Contacts that need it earlier build it themselves, with the same result.
@@ -6,48 +6,59 @@ Contacts that need it earlier build it themselves, with the same result.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections import deque
+from collections.abc import Iterable
 from functools import partial
 from threading import Event, Thread
+from weakref import WeakKeyDictionary
 
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.scene.shapes import TriMesh
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.worker_threads import start_worker
 
-FEW_TRIANGLES = 1000
-"""A mesh of fewer is prepared when it is needed, which takes 2 to 6 ms, once. Many small ones in the background would
-hold Python's interpreter lock, and so delay the frames of a game that has begun."""
-
 _ENDING = Event()
 
 
 class PreparedShapes:
-    """The shapes of a session's meshes that workers prepare; without `is_wanted`, `order` does nothing."""
+    """The shapes of a session's meshes, which a worker prepares if `in_background`, or else `wait`; without `is_wanted`
+    nothing is prepared."""
 
-    def __init__(self, *, is_wanted: bool) -> None:
-        self._is_wanted = is_wanted
-        self._workers: list[Thread] = []
+    def __init__(self, *, is_wanted: bool, in_background: bool) -> None:
+        self._is_wanted, self._in_background = is_wanted, in_background
+        # Keeps each shape as long as its mesh lives: copies of a prefab come and go.
+        self._ordered: WeakKeyDictionary[TriMesh, Shape] = WeakKeyDictionary()
+        self._waiting: deque[Shape] = deque()
+        self._worker: Thread | None = None
 
     def order(self, meshes: Iterable[TriMesh]) -> None:
-        """Prepare the detailed ones of these meshes, the largest first."""
+        """Let the worker prepare these meshes, the largest first; each is ordered once."""
         if not self._is_wanted:
             return
-        shapes = {shape_of(mesh) for mesh in meshes if len(mesh.faces) >= FEW_TRIANGLES}
-        waiting = sorted((one for one in shapes if not one.is_prepared), key=lambda one: -one.triangles.shape[2])
-        self._workers = [worker for worker in self._workers if worker.is_alive()]
-        if waiting:
-            self._workers.append(start_worker(partial(_prepare, waiting), "shapes", _ENDING.set))
+        new = {mesh: shape_of(mesh) for mesh in meshes if mesh not in self._ordered}
+        self._ordered.update(new)
+        if not self._in_background:
+            return
+        unprepared = [shape for shape in new.values() if not shape.is_prepared]
+        self._waiting += sorted(unprepared, key=lambda shape: -shape.triangles.shape[2])
+        # Starting a thread may take milliseconds, so that a wave of spawned objects has one. `wait` prepares what a
+        # worker does not see that ends at this moment.
+        if self._waiting and (self._worker is None or not self._worker.is_alive()):
+            self._worker = start_worker(partial(_prepare, self._waiting), "shapes", _ENDING.set)
 
     def wait(self, end: Deadline) -> bool:
-        """Wait for the workers; false after the deadline."""
-        for worker in self._workers:
-            worker.join(end.left_s)
-        return not any(worker.is_alive() for worker in self._workers)
+        """Wait for the worker, and prepare here what it has not; false after the deadline."""
+        if self._worker is not None:
+            self._worker.join(end.left_s)
+            if self._worker.is_alive():
+                return False
+        for shape in self._ordered.values():
+            if end.left_s == 0.0:
+                return False
+            shape.prepare()
+        return True
 
 
-def _prepare(shapes: Sequence[Shape]) -> None:
-    for shape in shapes:
-        if _ENDING.is_set():
-            return
-        shape.prepare()
+def _prepare(waiting: deque[Shape]) -> None:
+    while waiting and not _ENDING.is_set():
+        waiting.popleft().prepare()

@@ -150,3 +150,12 @@ def test_objects_are_plain_data() -> None:
     first, second = (box("a", (1, 1, 1), (0, 0, 0)) for _ in range(2))
     assert isinstance(first, SceneObject)
     assert first == second
+
+
+def test_objects_that_stay_keep_what_they_have_derived() -> None:
+    items = [box(x, (0.1, 0.1, 0.1), (0.0, height, 0.0)) for x, height in (("ground", 0.0), ("a", 1.0), ("b", 2.0))]
+    before = SceneSnapshot("s", "y", tuple(items)).with_poses({})
+    after = before.with_poses({"a": Pose((0.0, 1.0, 0.0)), "b": Pose((0.0, 2.5, 0.0))})
+    assert after.object("ground") is before.object("ground")
+    assert after.object("a") is before.object("a")
+    assert after.object("b").relative_height_m == before.object("b").relative_height_m + 0.5

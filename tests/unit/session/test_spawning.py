@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from scene2hap import BakeConfig, HapticBundle, HapticSession, LexiconBackend, Pose, SceneSnapshot, Touch, bake_object
+from scene2hap.contact.shape import shape_of
 from scene2hap.errors import SceneError, SessionError
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
 
@@ -188,10 +189,14 @@ def test_copies_come_and_go_while_another_thread_renders() -> None:
 def test_the_recipe_of_the_docs_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     text = (Path(__file__).parents[3] / "docs" / "spawning.md").read_text(encoding="utf-8")
-    bakes, plays = (part.split("```")[0] for part in text.split("```python\n")[1:])
+    bakes, plays, first_wave = (part.split("```")[0] for part in text.split("```python\n")[1:])
     names = {"session": session(), "HapticBundle": HapticBundle}
     exec(bakes, names)
     exec(plays.split("...\n")[0], names)
     assert "fan_17" in names["session"].source_ids
     exec(plays.split("...\n")[1], names)
     assert "fan_17" not in names["session"].source_ids
+    exec(first_wave, {**names, "Pose": Pose})
+    (item,) = names["prefab"].snapshot.objects
+    assert shape_of(item.geometry.mesh).is_prepared
+    assert "first" not in names["session"].source_ids
