@@ -87,7 +87,8 @@ class PointField(Protocol):
         """Response at each hand over that at a point of an object [m], world.
 
         Parameters: hands : the touched points of each hand; frequencies_hz : (n_frequencies,) > 0 [Hz].
-        Returns: (n_hands, n_frequencies) float64 [-], >= 0, 0 where nothing arrives.
+        Returns: (n_hands, n_frequencies) float64 [-], >= 0, 0 where nothing arrives; it may be 0 below -140 dB on other
+        objects.
         """
         ...
 

@@ -27,6 +27,8 @@ Floats = NDArray[np.float64]
 
 _MOST_WEIGHTS = 1024
 
+_FAINTEST = 1e-7
+"""Gain [-] below which a point is not searched for: a path over a whole level would take seconds."""
 _POINT = "\0point"
 """Id of a source that is a point of an object; it is in the network only during a query."""
 
@@ -97,14 +99,24 @@ class LivePaths:
         found.pop()  # the row of `_POINT`
         return found
 
-    def costs_from(self, object_id: str, point_m: Triple, hands: Iterable[Iterable[tuple[str, Triple]]]) -> list[float]:
+    def costs_from(
+        self, object_id: str, point_m: Triple, hands: Sequence[Sequence[tuple[str, Triple]]], limit: float
+    ) -> list[float]:
         """Cost of the cheapest path from a point of an object to the nearest point that each hand touches, as if a
-        source without extent stood there; infinity without a path."""
+        source without extent stood there; infinity without a path.
+
+        Parameters: limit : the highest cost of interest; a higher one is infinite, unless the hand is on the object.
+        """
         self._follow_graph()
         contact, row = [(_POINT, object_id)], self._point_row
         self._paths.update(contact, {_POINT: {object_id: Junction((point_m,), (1.0,), (None,))}})
         try:
-            found = [self._paths.cheapest(touched, None, [row])[row] for touched in hands]
+            limits = [limit + self._crossing_costs[1.0]] * (row + 1)
+            is_on = [any(touched_id == object_id for touched_id, _ in touched) for touched in hands]
+            found = [
+                self._paths.cheapest(touched, None if on else limits, [row])[row]
+                for touched, on in zip(hands, is_on, strict=True)
+            ]
         finally:
             self._paths.update(contact, {})
         # The contact of `_POINT` itself costs nothing.
@@ -156,8 +168,10 @@ class LiveLaw:
         self, object_id: str, point_m: Triple, hands: Sequence[Sequence[TouchedPoint]], frequencies_hz: Floats
     ) -> Floats:
         """See `PointField`."""
-        costs = np.array(self._paths.costs_from(object_id, point_m, hands)).reshape(-1, 1)
-        gamma: Floats = np.exp(-costs * np.sqrt(2 * math.pi * frequencies_hz))
+        root_omega = np.sqrt(2 * math.pi * frequencies_hz)
+        limit = math.inf if self._floor else -math.log(_FAINTEST) / float(root_omega.min())
+        costs = np.array(self._paths.costs_from(object_id, point_m, hands, limit)).reshape(-1, 1)
+        gamma: Floats = np.exp(-costs * root_omega)
         arrives: Floats = np.isfinite(costs).astype(np.float64)
         return np.maximum(gamma, self._floor * arrives)
 
