@@ -205,8 +205,13 @@ def _batches(boxes: NDArray[np.float64], reach_m: float = 0.0) -> Iterator[tuple
     by_x = np.argsort(boxes[:, 0, 0], kind="stable")
     for start in range(0, len(boxes), _BATCH):
         some = by_x[start : start + _BATCH]
-        low, high = boxes[some, 0, 0].min() - reach_m, boxes[some, 1, 0].max() + reach_m
-        yield some, np.flatnonzero((boxes[:, 0, 0] <= high) & (boxes[:, 1, 0] >= low))
+        yield some, _along_x(boxes, boxes[some], reach_m)
+
+
+def _along_x(boxes: NDArray[np.float64], some: NDArray[np.float64], reach_m: float) -> NDArray[np.intp]:
+    """Return the rows of the boxes (n, 2, 3) that are within a reach of some boxes along x."""
+    low, high = some[:, 0, 0].min() - reach_m, some[:, 1, 0].max() + reach_m
+    return np.flatnonzero((boxes[:, 0, 0] <= high) & (boxes[:, 1, 0] >= low))
 
 
 def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
@@ -244,11 +249,11 @@ def _floating_inside(scene: SceneData, boxes: NDArray[np.float64], ids: tuple[st
     triangles: dict[int, NDArray[np.float64]] = {}
     found: list[tuple[int, int, float]] = []
     for row in np.unique(held[~is_room[holders]]).tolist():
-        near = distances(boxes, boxes[row]) <= reach_m[row]
+        near = _along_x(boxes, boxes[[row]], reach_m[row])
+        near = near[distances(boxes[near], boxes[row]) <= reach_m[row]]
         first, end = np.searchsorted(held, (row, row + 1))
         hosts = holders[first:end].tolist()
-        near[[row, *hosts]] = False
-        if near.any():
+        if not {row, *hosts}.issuperset(near.tolist()):
             continue
         for host in hosts:
             if host not in triangles:
