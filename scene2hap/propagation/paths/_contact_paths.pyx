@@ -189,23 +189,53 @@ cdef class ContactPaths:
     cdef double* found
 
     def __init__(self, dict price_per_m, dict rows, crossing_costs, max_hops):
-        self.price_per_m, self.rows, self.crossing_costs = price_per_m, rows, crossing_costs
-        self.least_price = min(price_per_m.values(), default=0.0)
-        self.ids = list(rows)
+        self.crossing_costs = crossing_costs
         self.is_limited = max_hops is not None
         self.max_hops = min(max_hops, 1 << 30) if self.is_limited else 0
         self.objects = {}
+        self.use(price_per_m, rows)
+
+    def __dealloc__(self):
+        PyMem_Free(self.labels)
+        self.free_targets()
+
+    cdef void free_targets(self) noexcept:
+        PyMem_Free(self.targets)
+        PyMem_Free(self.target_of)
+        PyMem_Free(self.found)
+
+    def use(self, dict price_per_m, dict rows):
+        cdef Object x
+        cdef Neighbour out, back
+        cdef Beside* beside
+        self.price_per_m, self.rows, self.ids = price_per_m, rows, list(rows)
+        self.least_price = min(price_per_m.values(), default=0.0)
+        self.free_targets()
         self.targets = <Target*>PyMem_Malloc((len(rows) + 1) * sizeof(Target))
         self.target_of = <Py_ssize_t*>PyMem_Malloc((len(rows) + 1) * sizeof(Py_ssize_t))
         self.found = <double*>PyMem_Malloc((len(rows) + 1) * sizeof(double))
         if self.targets == NULL or self.target_of == NULL or self.found == NULL:
             raise MemoryError
+        for x in self.objects.values():
+            if self.describe(x):
+                for out in x.neighbours.values():
+                    back = out.into.neighbours[x.id]
+                    beside = &back.out_of.around[back.place]
+                    back.out_of.n_sources += (x.row >= 0) - (beside.row >= 0)
+                    beside.row = x.row
+                    out.sort_in()
+                    back.sort_in()
 
-    def __dealloc__(self):
-        PyMem_Free(self.labels)
-        PyMem_Free(self.targets)
-        PyMem_Free(self.target_of)
-        PyMem_Free(self.found)
+    cdef bint describe(self, Object x):
+        """Set price and row of an object. Returns whether any has changed."""
+        price = self.price_per_m.get(x.id)
+        cdef bint has_price = price is not None
+        cdef double per_m = price if has_price else 0.0
+        cdef Py_ssize_t row = self.rows.get(x.id, -1)
+        if has_price == x.has_price and per_m == x.price and row == x.row:
+            return False
+        x.has_price, x.price, x.row = has_price, per_m, row
+        return True
 
     # The network.
 
@@ -246,11 +276,8 @@ cdef class ContactPaths:
         cdef Object found = self.objects.get(object_id)
         if found is None:
             found = Object.__new__(Object)
-            found.id, price = object_id, self.price_per_m.get(object_id)
-            found.has_price = price is not None
-            found.price = price if found.has_price else 0.0
-            found.row = self.rows.get(object_id, -1)
-            found.neighbours = {}
+            found.id, found.neighbours = object_id, {}
+            self.describe(found)
             self.objects[object_id] = found
         return found
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from scene2hap.contact.junction import Junction
 from scene2hap.propagation.bands.band_rms import BandRms
-from scene2hap.propagation.live import Prices, TouchedPoint
+from scene2hap.propagation.live import LiveField, Prices, TouchedPoint
 from scene2hap.propagation.paths.contact_paths import ContactPaths, Triple
 
 if TYPE_CHECKING:
@@ -27,8 +27,9 @@ Floats = NDArray[np.float64]
 
 _MOST_WEIGHTS = 1024
 
-_FAINTEST = 1e-7
-"""Gain [-] below which a point is not searched for: a path over a whole level would take seconds."""
+_FAINTEST = 1e-5
+"""Gain [-] below which a point is not searched for: a path over a whole level would take seconds. Impacts are played
+from -60 dB on."""
 _POINT = "\0point"
 """Id of a source that is a point of an object; it is in the network only during a query."""
 
@@ -65,8 +66,19 @@ class LivePaths:
         self._graph, self._beside = graph, graph.beside
         rows = {source_id: row for row, source_id in enumerate((*source_ids, _POINT))}
         self._point_row, self._crossing_costs = len(source_ids), _CrossingCosts(crossing_cost)
-        self._paths = ContactPaths(dict(price_per_m), rows, self._crossing_costs, max_hops)
+        self._given = dict(price_per_m), rows
+        self._paths = ContactPaths(*self._given, self._crossing_costs, max_hops)
         self._version = -1
+
+    def succeed(self, before: LivePaths) -> None:
+        """Take over the network of contacts from the paths of the same law and graph with other objects or sources.
+
+        The former paths read all contacts again if they are queried.
+        """
+        self._paths, before._paths = before._paths, self._paths
+        self._version, before._version = before._version, -1
+        for one in (self, before):
+            one._paths.use(*one._given)
 
     def __del__(self) -> None:
         # Objects and their neighbours refer to each other. When sources come and go, the garbage collector would have
@@ -142,6 +154,11 @@ class LiveLaw:
     def __init__(self, paths: LivePaths, source_ids: tuple[str, ...], gamma: Gamma, floor: float) -> None:
         self.source_ids = source_ids
         self._paths, self._gamma, self._floor = paths, gamma, floor
+
+    def succeed(self, before: LiveField) -> None:
+        """See `SucceedingField`."""
+        if isinstance(before, LiveLaw):
+            self._paths.succeed(before._paths)
 
     def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:
         """See `LiveField`."""

@@ -331,3 +331,22 @@ def test_a_network_that_is_updated_answers_as_a_new_one_bit_for_bit(max_hops: in
             assert kept.least_costs([(touched, (0.0, 0.0, 0.0))]) == expected
             n_finite += sum(map(math.isfinite, expected))
     assert n_finite > 200
+
+
+def test_paths_succeed_others_when_objects_and_sources_come_and_go() -> None:
+    rng = np.random.default_rng(4)
+    graph = room()
+    paths, prices, sources = LivePaths(graph, PRICES, crossing, SOURCES, None), PRICES, SOURCES
+    for step in range(60):
+        former = paths, prices, sources
+        prices = {x: per_m for x, per_m in {**PRICES, "lamp": 0.3}.items() if rng.random() < 0.8}
+        sources = tuple(rng.permutation([x for x in (*SOURCES, "cup") if rng.random() < 0.7]).tolist())
+        paths = LivePaths(graph, prices, crossing, sources, None)
+        paths.succeed(former[0])
+        graph.update({"phone": Pose((0.2, 0.705 + 0.2 * (step % 2), 0.1)), "radio": Pose((-0.3, 0.75, 0.005 * step))})
+        for touched in PRICES:
+            where = [(touched, tuple(rng.uniform(-1, 1, 3).tolist()))]
+            # The former ones still answer, of their own sources: the gains of an earlier frame may be read late.
+            for one, its_prices, its_sources in (former, (paths, prices, sources))[step % 3 == 0 :]:
+                fresh = LivePaths(graph, its_prices, crossing, its_sources, None)
+                assert one.least_costs(where) == fresh.least_costs(where)
