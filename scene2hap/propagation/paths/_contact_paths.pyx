@@ -59,7 +59,7 @@ cdef class Object:
     cdef bint has_price
     cdef Py_ssize_t row  # of a source, else -1
     cdef dict neighbours
-    cdef Beside* around  # all neighbours, in any order
+    cdef Beside* around  # neighbours that are sources, or through which a path may continue; in any order
     cdef Py_ssize_t n_around, room_around, n_sources
     cdef Entry* entries
     cdef Py_ssize_t n_entries, room
@@ -79,16 +79,16 @@ cdef class Object:
                 raise MemoryError
             self.around, self.room_around = around, 2 * self.room_around + 4
         other.place = self.n_around
-        self.around[other.place] = Beside(0, 0, 0, 0, False, other.into.row, <void*>other)
+        self.around[other.place].neighbour = <void*>other
         self.n_around += 1
-        self.n_sources += other.into.row >= 0
+        other.enclose()
         return 0
 
     cdef void drop(self, Neighbour other) noexcept:
         self.n_around -= 1
-        self.n_sources -= other.into.row >= 0
         self.around[other.place] = self.around[self.n_around]
         (<Neighbour>self.around[other.place].neighbour).place = other.place
+        other.place = -1
 
     cdef int enter(self, Edge* at, double cost, int hops) except -1:
         cdef Entry* entries
@@ -136,7 +136,7 @@ cdef class Neighbour:
     cdef object junction
     cdef Edge* edges
     cdef Py_ssize_t n
-    cdef Py_ssize_t place  # index in `out_of.around`
+    cdef Py_ssize_t place  # index in `out_of.around`, -1 if it is not there
 
     def __dealloc__(self):
         PyMem_Free(self.edges)
@@ -165,12 +165,20 @@ cdef class Neighbour:
                 ball.radius_m, apart(ball.x, ball.y, ball.z, self.edges[k].x, self.edges[k].y, self.edges[k].z)
             )
 
-    cdef void sort_in(self) noexcept:
-        """Note whether a path may continue through this neighbour."""
-        self.out_of.around[self.place].leads_on = self.into.has_price and (
+    cdef int sort_in(self) except -1:
+        """Add this neighbour to `out_of.around` if it is a source or a path may continue through it, else drop it."""
+        cdef bint leads_on = self.into.has_price and (
             len(self.into.neighbours) > 1
             or (self.n > 1 and self.out_of.has_price and self.into.price < self.out_of.price)
         )
+        if leads_on or self.into.row >= 0:
+            if self.place < 0:
+                self.out_of.add(self)
+            self.out_of.around[self.place].leads_on = leads_on
+            self.out_of.around[self.place].row = self.into.row
+        elif self.place >= 0:
+            self.out_of.drop(self)
+        return 0
 
 
 cdef class ContactPaths:
@@ -207,7 +215,7 @@ cdef class ContactPaths:
     def use(self, dict price_per_m, dict rows):
         cdef Object x
         cdef Neighbour out, back
-        cdef Beside* beside
+        cdef bint was_source
         self.price_per_m, self.rows, self.ids = price_per_m, rows, list(rows)
         self.least_price = min(price_per_m.values(), default=0.0)
         self.free_targets()
@@ -217,12 +225,11 @@ cdef class ContactPaths:
         if self.targets == NULL or self.target_of == NULL or self.found == NULL:
             raise MemoryError
         for x in self.objects.values():
+            was_source = x.row >= 0
             if self.describe(x):
                 for out in x.neighbours.values():
                     back = out.into.neighbours[x.id]
-                    beside = &back.out_of.around[back.place]
-                    back.out_of.n_sources += (x.row >= 0) - (beside.row >= 0)
-                    beside.row = x.row
+                    out.into.n_sources += (x.row >= 0) - was_source
                     out.sort_in()
                     back.sort_in()
 
@@ -291,10 +298,10 @@ cdef class ContactPaths:
         cdef Edge* edge
         if is_new:
             there, back = Neighbour.__new__(Neighbour), Neighbour.__new__(Neighbour)
-            there.out_of, there.into = one, two
-            back.out_of, back.into = two, one
-            one.add(there)
-            two.add(back)
+            there.out_of, there.into, there.place = one, two, -1
+            back.out_of, back.into, back.place = two, one, -1
+            one.n_sources += two.row >= 0
+            two.n_sources += one.row >= 0
         there.junction = back.junction = junction
         there.allocate(len(points))
         back.allocate(len(points))
@@ -309,8 +316,9 @@ cdef class ContactPaths:
             self.sort_around(one)
             self.sort_around(two)
         for x in (there, back):
-            (<Neighbour>x).enclose()
             (<Neighbour>x).sort_in()
+            if (<Neighbour>x).place >= 0:
+                (<Neighbour>x).enclose()
         return 0
 
     cdef int disconnect(self, a, b) except -1:
@@ -321,8 +329,11 @@ cdef class ContactPaths:
         there, back = one.neighbours.pop(b, None), two.neighbours.pop(a, None)
         if there is None:
             return 0
-        one.drop(there)
-        two.drop(back)
+        one.n_sources -= two.row >= 0
+        two.n_sources -= one.row >= 0
+        for x in (there, back):
+            if (<Neighbour>x).place >= 0:
+                (<Neighbour>x).out_of.drop(x)
         for x in (one, two):
             (<Object>x).is_ball_known = False
             if (<Object>x).neighbours:
