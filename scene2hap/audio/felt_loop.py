@@ -56,7 +56,8 @@ def plan_scene(
     Raises: AudioError: an intensity outside 0..1.
     """
     levels = [sensation_level_db(source.intensity) for source in sources]
-    anchors = _anchors(sources, levels, actuator)
+    analysed = _analysed(sources, levels, actuator)
+    anchors = [anchor for anchor, _ in analysed]
     follows = bool(getattr(converter, "follows_target", False))
     known = [i for i, anchor in enumerate(anchors) if anchor is not None]
     voices = [
@@ -66,9 +67,9 @@ def plan_scene(
             source.group,
             anchor.crest_db,
             is_placed=source.keep or source.pitch_hz is not None,
-            rhythm_hz=anchor.rough_hz or rhythm_hz(band_of(source.clip, anchor), source.clip.sample_rate_hz),
+            rhythm_hz=rhythm,
         )
-        for source, level, anchor in zip(sources, levels, anchors, strict=True)
+        for source, level, (anchor, rhythm) in zip(sources, levels, analysed, strict=True)
         if anchor is not None
     ]
     fixed = [_standing_voice(loop, group, actuator) for loop, group in standing]
@@ -78,10 +79,13 @@ def plan_scene(
         placed = {i: Placement(voice.own_hz, voice.level_db) for i, voice in zip(known, voices, strict=True)}
     others = [(place.target_hz, sources[i].group) for i, place in placed.items()]
     others += [(voice.own_hz, voice.group) for voice in fixed]
+    neighbours_hz = {
+        own: tuple(dict.fromkeys(frequency for frequency, group in others if group != own))
+        for own in {source.group for source in sources}
+    }
     plans = []
     for i, (source, anchor) in enumerate(zip(sources, anchors, strict=True)):
-        neighbours_hz = tuple(dict.fromkeys(frequency for frequency, group in others if group != source.group))
-        context = ConversionContext(actuator, source.intensity, neighbours_hz)
+        context = ConversionContext(actuator, source.intensity, neighbours_hz[source.group])
         if anchor is None:
             plans.append(Plan(context, levels[i]))
         else:
@@ -89,13 +93,19 @@ def plan_scene(
     return tuple(plans)
 
 
-def _anchors(sources: Sequence[SourceClip], levels: Sequence[float], actuator: ActuatorProfile) -> list[Anchor | None]:
-    """Return the anchor of each source; sources that share a clip and a level are analysed once."""
-    known: dict[tuple[int, float], Anchor | None] = {}
+def _analysed(
+    sources: Sequence[SourceClip], levels: Sequence[float], actuator: ActuatorProfile
+) -> list[tuple[Anchor | None, float | None]]:
+    """Return anchor and rhythm [Hz] of each source; sources that share a clip and a level are analysed once."""
+    known: dict[tuple[int, float], tuple[Anchor | None, float | None]] = {}
     for source, level in zip(sources, levels, strict=True):
-        key = id(source.clip), level
+        key, clip = (id(source.clip), level), source.clip
         if key not in known:
-            known[key] = anchor_of(source.clip.samples, source.clip.sample_rate_hz, level, actuator)
+            anchor = anchor_of(clip.samples, clip.sample_rate_hz, level, actuator)
+            rhythm = None
+            if anchor is not None:
+                rhythm = anchor.rough_hz or rhythm_hz(band_of(clip, anchor), clip.sample_rate_hz)
+            known[key] = anchor, rhythm
     return [known[id(source.clip), level] for source, level in zip(sources, levels, strict=True)]
 
 

@@ -9,10 +9,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, TypeGuard
 
-from scene2hap.errors import UnknownMaterial
 from scene2hap.llm.mass_check import mass_fault
 from scene2hap.llm.protocol import Component
-from scene2hap.materials import MaterialRow, lookup_row
+from scene2hap.materials import MaterialRow, find_row
 from scene2hap.scene.surface import plate_sizes
 
 EDGES = ("length", "width", "thickness")
@@ -66,10 +65,9 @@ def row_of(word: str) -> MaterialRow | None:
     parts = word.replace("-", " ").replace("_", " ").split()[:_LONGEST]
     for length in range(len(parts), 0, -1):
         for start in range(len(parts) - length, -1, -1):
-            try:
-                return lookup_row(" ".join(parts[start : start + length]))
-            except UnknownMaterial:
-                continue
+            row = find_row(" ".join(parts[start : start + length]))
+            if row is not None:
+                return row
     return None
 
 

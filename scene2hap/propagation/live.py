@@ -74,6 +74,17 @@ class PricedField(LiveField, Protocol):
 
 
 @runtime_checkable
+class SucceedingField(Protocol):
+    """A live field that goes on with the contacts that the field before it has read, of a scene in which objects or
+    sources were added or removed."""
+
+    def succeed(self, before: LiveField) -> None:
+        """Take over from a field of the same model and graph. That one still answers queries, but may have to read all
+        contacts again."""
+        ...
+
+
+@runtime_checkable
 class PointField(Protocol):
     """A live field that also has gains of a point source on an object, such as where something lands."""
 
@@ -87,7 +98,8 @@ class PointField(Protocol):
         """Response at each hand over that at a point of an object [m], world.
 
         Parameters: hands : the touched points of each hand; frequencies_hz : (n_frequencies,) > 0 [Hz].
-        Returns: (n_hands, n_frequencies) float64 [-], >= 0, 0 where nothing arrives.
+        Returns: (n_hands, n_frequencies) float64 [-], >= 0, 0 where nothing arrives; it may be 0 below -100 dB on other
+        objects.
         """
         ...
 

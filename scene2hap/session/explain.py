@@ -23,6 +23,7 @@ from scene2hap.propagation.exponential_plate import ExponentialPlate, PathCosts
 from scene2hap.propagation.live import PricedField
 from scene2hap.propagation.paths.traced_paths import Leg, PathsToPoint, Point
 from scene2hap.propagation.protocol import Carrier, CarryingField
+from scene2hap.session.audibility import NOWHERE
 from scene2hap.session.frame import HapticFrame, Touch
 from scene2hap.session.hand_gains import TouchGains
 from scene2hap.session.impacts.felt_impacts import Impact
@@ -185,13 +186,15 @@ class Explainer:
         """Explain the gains of a hand in a frame with these touches."""
         felt = []
         if touches and hand in frame.hands:
-            at_touches = self._gains.of([[touch] for touch in touches])
-            for source_id, given in zip(frame.sources, frame.gains[frame.hands.index(hand)], strict=True):
-                if given.any() and source_id in self._column:
-                    band = int(given.argmax())
-                    each = at_touches[:, self._column[source_id], band]
-                    loudest = int(each.argmax())
-                    felt.append(self._felt(source_id, band, touches[loudest], float(each[loudest])))
+            gains = zip(frame.sources, frame.gains[frame.hands.index(hand)], strict=True)
+            bands = {x: int(given.argmax()) for x, given in gains if given.any() and x in self._column}
+            # No path is searched to the other sources, which are most sources of a large scene.
+            limits = [math.inf if source_id in bands else NOWHERE for source_id in self._column]
+            at_touches = self._gains.of([[touch] for touch in touches], limits)
+            for source_id, band in bands.items():
+                each = at_touches[:, self._column[source_id], band]
+                loudest = int(each.argmax())
+                felt.append(self._felt(source_id, band, touches[loudest], float(each[loudest])))
         felt.sort(key=lambda item: -(item.gain_db + item.level_db))
         on = tuple(touch.object_id for touch in touches)
         reasons = () if felt or not touches else tuple(self._reasons(set(on), is_paused=is_paused))

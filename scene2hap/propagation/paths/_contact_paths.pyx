@@ -32,9 +32,23 @@ cdef struct Target:
     Py_ssize_t row
 
 
+cdef struct Beside:
+    # A neighbour, and a ball around its contact points.
+    double x, y, z, radius_m
+    bint leads_on  # whether a path may continue through it
+    Py_ssize_t row  # of a source, else -1
+    void* neighbour
+
+
 cdef inline double apart(double ax, double ay, double az, double bx, double by, double bz) noexcept nogil:
     ax, ay, az = ax - bx, ay - by, az - bz
     return sqrt(ax * ax + ay * ay + az * az)
+
+
+cdef inline bint is_beyond(Beside* beside, Edge* at, double cost, double price, double limit) noexcept nogil:
+    """Whether all contact points of a neighbour are too far away for a cost up to a limit."""
+    cdef double metres = apart(at.x, at.y, at.z, beside.x, beside.y, beside.z) - beside.radius_m
+    return cost + price * metres > limit * ROUNDED_UP
 
 
 cdef class Object:
@@ -45,8 +59,8 @@ cdef class Object:
     cdef bint has_price
     cdef Py_ssize_t row  # of a source, else -1
     cdef dict neighbours
-    cdef list onward  # neighbours through which a path may continue, in any order
-    cdef list sources  # neighbours that are sources
+    cdef Beside* around  # neighbours that are sources, or through which a path may continue; in any order
+    cdef Py_ssize_t n_around, room_around, n_sources
     cdef Entry* entries
     cdef Py_ssize_t n_entries, room
     cdef long long search
@@ -54,7 +68,27 @@ cdef class Object:
     cdef double x, y, z, radius_m
 
     def __dealloc__(self):
+        PyMem_Free(self.around)
         PyMem_Free(self.entries)
+
+    cdef int add(self, Neighbour other) except -1:
+        cdef Beside* around
+        if self.n_around == self.room_around:
+            around = <Beside*>PyMem_Realloc(self.around, (2 * self.room_around + 4) * sizeof(Beside))
+            if around == NULL:
+                raise MemoryError
+            self.around, self.room_around = around, 2 * self.room_around + 4
+        other.place = self.n_around
+        self.around[other.place].neighbour = <void*>other
+        self.n_around += 1
+        other.enclose()
+        return 0
+
+    cdef void drop(self, Neighbour other) noexcept:
+        self.n_around -= 1
+        self.around[other.place] = self.around[self.n_around]
+        (<Neighbour>self.around[other.place].neighbour).place = other.place
+        other.place = -1
 
     cdef int enter(self, Edge* at, double cost, int hops) except -1:
         cdef Entry* entries
@@ -102,7 +136,7 @@ cdef class Neighbour:
     cdef object junction
     cdef Edge* edges
     cdef Py_ssize_t n
-    cdef Py_ssize_t place  # index in `out_of.onward`, -1 if no path continues here
+    cdef Py_ssize_t place  # index in `out_of.around`, -1 if it is not there
 
     def __dealloc__(self):
         PyMem_Free(self.edges)
@@ -117,28 +151,39 @@ cdef class Neighbour:
         memset(self.edges, 0, n * sizeof(Edge))
         return 0
 
+    cdef void enclose(self) noexcept:
+        """Set the ball around the contact points."""
+        cdef Beside* ball = &self.out_of.around[self.place]
+        cdef Py_ssize_t k
+        ball.x = ball.y = ball.z = ball.radius_m = 0
+        for k in range(self.n):
+            ball.x += self.edges[k].x / self.n
+            ball.y += self.edges[k].y / self.n
+            ball.z += self.edges[k].z / self.n
+        for k in range(self.n):
+            ball.radius_m = fmax(
+                ball.radius_m, apart(ball.x, ball.y, ball.z, self.edges[k].x, self.edges[k].y, self.edges[k].z)
+            )
+
     cdef int sort_in(self) except -1:
-        """Add this neighbour to `out_of.onward` if a path may continue through it, otherwise remove it."""
-        cdef Neighbour last
-        cdef list onward = self.out_of.onward
+        """Add this neighbour to `out_of.around` if it is a source or a path may continue through it, else drop it."""
         cdef bint leads_on = self.into.has_price and (
             len(self.into.neighbours) > 1
             or (self.n > 1 and self.out_of.has_price and self.into.price < self.out_of.price)
         )
-        if leads_on and self.place < 0:
-            self.place = len(onward)
-            onward.append(self)
-        elif not leads_on and self.place >= 0:
-            last = onward.pop()
-            if last is not self:
-                onward[self.place] = last
-                last.place = self.place
-            self.place = -1
+        if leads_on or self.into.row >= 0:
+            if self.place < 0:
+                self.out_of.add(self)
+            self.out_of.around[self.place].leads_on = leads_on
+            self.out_of.around[self.place].row = self.into.row
+        elif self.place >= 0:
+            self.out_of.drop(self)
         return 0
 
 
 cdef class ContactPaths:
     cdef dict price_per_m, rows, objects
+    cdef list ids
     cdef object crossing_costs
     cdef double least_price
     cdef bint is_limited
@@ -152,22 +197,52 @@ cdef class ContactPaths:
     cdef double* found
 
     def __init__(self, dict price_per_m, dict rows, crossing_costs, max_hops):
-        self.price_per_m, self.rows, self.crossing_costs = price_per_m, rows, crossing_costs
-        self.least_price = min(price_per_m.values(), default=0.0)
+        self.crossing_costs = crossing_costs
         self.is_limited = max_hops is not None
         self.max_hops = min(max_hops, 1 << 30) if self.is_limited else 0
         self.objects = {}
+        self.use(price_per_m, rows)
+
+    def __dealloc__(self):
+        PyMem_Free(self.labels)
+        self.free_targets()
+
+    cdef void free_targets(self) noexcept:
+        PyMem_Free(self.targets)
+        PyMem_Free(self.target_of)
+        PyMem_Free(self.found)
+
+    def use(self, dict price_per_m, dict rows):
+        cdef Object x
+        cdef Neighbour out, back
+        cdef bint was_source
+        self.price_per_m, self.rows, self.ids = price_per_m, rows, list(rows)
+        self.least_price = min(price_per_m.values(), default=0.0)
+        self.free_targets()
         self.targets = <Target*>PyMem_Malloc((len(rows) + 1) * sizeof(Target))
         self.target_of = <Py_ssize_t*>PyMem_Malloc((len(rows) + 1) * sizeof(Py_ssize_t))
         self.found = <double*>PyMem_Malloc((len(rows) + 1) * sizeof(double))
         if self.targets == NULL or self.target_of == NULL or self.found == NULL:
             raise MemoryError
+        for x in self.objects.values():
+            was_source = x.row >= 0
+            if self.describe(x):
+                for out in x.neighbours.values():
+                    back = out.into.neighbours[x.id]
+                    out.into.n_sources += (x.row >= 0) - was_source
+                    out.sort_in()
+                    back.sort_in()
 
-    def __dealloc__(self):
-        PyMem_Free(self.labels)
-        PyMem_Free(self.targets)
-        PyMem_Free(self.target_of)
-        PyMem_Free(self.found)
+    cdef bint describe(self, Object x):
+        """Set price and row of an object. Returns whether any has changed."""
+        price = self.price_per_m.get(x.id)
+        cdef bint has_price = price is not None
+        cdef double per_m = price if has_price else 0.0
+        cdef Py_ssize_t row = self.rows.get(x.id, -1)
+        if has_price == x.has_price and per_m == x.price and row == x.row:
+            return False
+        x.has_price, x.price, x.row = has_price, per_m, row
+        return True
 
     # The network.
 
@@ -208,11 +283,8 @@ cdef class ContactPaths:
         cdef Object found = self.objects.get(object_id)
         if found is None:
             found = Object.__new__(Object)
-            found.id, price = object_id, self.price_per_m.get(object_id)
-            found.has_price = price is not None
-            found.price = price if found.has_price else 0.0
-            found.row = self.rows.get(object_id, -1)
-            found.neighbours, found.onward, found.sources = {}, [], []
+            found.id, found.neighbours = object_id, {}
+            self.describe(found)
             self.objects[object_id] = found
         return found
 
@@ -228,6 +300,8 @@ cdef class ContactPaths:
             there, back = Neighbour.__new__(Neighbour), Neighbour.__new__(Neighbour)
             there.out_of, there.into, there.place = one, two, -1
             back.out_of, back.into, back.place = two, one, -1
+            one.n_sources += two.row >= 0
+            two.n_sources += one.row >= 0
         there.junction = back.junction = junction
         there.allocate(len(points))
         back.allocate(len(points))
@@ -239,14 +313,12 @@ cdef class ContactPaths:
         one.is_ball_known = two.is_ball_known = False
         if is_new:
             one.neighbours[b], two.neighbours[a] = there, back
-            if two.row >= 0:
-                one.sources.append(there)
-            if one.row >= 0:
-                two.sources.append(back)
             self.sort_around(one)
             self.sort_around(two)
-        there.sort_in()
-        back.sort_in()
+        for x in (there, back):
+            (<Neighbour>x).sort_in()
+            if (<Neighbour>x).place >= 0:
+                (<Neighbour>x).enclose()
         return 0
 
     cdef int disconnect(self, a, b) except -1:
@@ -257,8 +329,11 @@ cdef class ContactPaths:
         there, back = one.neighbours.pop(b, None), two.neighbours.pop(a, None)
         if there is None:
             return 0
-        self.forget(there)
-        self.forget(back)
+        one.n_sources -= two.row >= 0
+        two.n_sources -= one.row >= 0
+        for x in (there, back):
+            if (<Neighbour>x).place >= 0:
+                (<Neighbour>x).out_of.drop(x)
         for x in (one, two):
             (<Object>x).is_ball_known = False
             if (<Object>x).neighbours:
@@ -267,20 +342,8 @@ cdef class ContactPaths:
                 del self.objects[(<Object>x).id]
         return 0
 
-    cdef int forget(self, Neighbour gone) except -1:
-        cdef Neighbour last
-        cdef list onward = gone.out_of.onward
-        if gone.into.row >= 0:
-            gone.out_of.sources.remove(gone)
-        if gone.place >= 0:
-            last = onward.pop()
-            if last is not gone:
-                onward[gone.place] = last
-                last.place = gone.place
-        return 0
-
     cdef int sort_around(self, Object x) except -1:
-        """Update `onward` of an object's neighbours, which depends on whether the object has several neighbours."""
+        """Sort an object in at its neighbours, which depends on whether it has several neighbours."""
         cdef Neighbour out, back
         if len(x.neighbours) <= 2:
             for out in x.neighbours.values():
@@ -314,9 +377,9 @@ cdef class ContactPaths:
                 starts.append(start)
                 self.push(0.0, 0, start, 0)
         if starts:
-            for source_id, row in self.rows.items():
-                if self.found[row] > 0.0 and (among is None or row in among):
-                    x = self.objects.get(source_id)
+            for row in range(n) if among is None else among:
+                if self.found[row] > 0.0:
+                    x = self.objects.get(self.ids[row])
                     if x is not None:
                         if not x.is_ball_known:
                             x.find_ball()
@@ -349,34 +412,39 @@ cdef class ContactPaths:
     cdef int expand(self, Neighbour way, Edge* at, double cost, int hops) except -1:
         cdef Object here = way.into, beyond
         cdef Neighbour other
-        cdef Py_ssize_t i, k
-        cdef double price = here.price, further, limit = 0
+        cdef Py_ssize_t i, j, k
+        cdef double price = here.price, further, limit
         cdef bint is_last = False
         cdef Target* target
+        cdef Beside* beside
         cdef Edge* edge
         if here.search != self.search:
             here.search, here.n_entries = self.search, 0
         here.enter(at, cost, hops)
-        for other in here.sources:
-            i = self.target_of[other.into.row]
-            if i < 0:
+        limit = self.highest_limit()
+        for j in range(here.n_around):
+            beside = &here.around[j]
+            if beside.row < 0 or self.target_of[beside.row] < 0 or is_beyond(beside, at, cost, price, limit):
                 continue
-            target = &self.targets[i]
+            target, other = &self.targets[self.target_of[beside.row]], <Neighbour>beside.neighbour
             for k in range(other.n):
                 edge = &other.edges[k]
                 further = cost + price * apart(at.x, at.y, at.z, edge.x, edge.y, edge.z) + edge.crossing_cost
                 if further < self.found[target.row] and further <= target.at_most:
                     self.found[target.row] = target.at_most = further
-        for i in range(self.n_targets):
-            limit = fmax(limit, self.targets[i].at_most)
+        limit = self.highest_limit()
         if self.is_limited:
             hops += 1
             if hops >= self.max_hops:
                 return 0
             is_last = hops + 1 == self.max_hops
-        for other in here.onward:
+        for j in range(here.n_around):
+            beside = &here.around[j]
+            if not beside.leads_on or is_beyond(beside, at, cost, price, limit):
+                continue
+            other = <Neighbour>beside.neighbour
             beyond = other.into
-            if (is_last and not beyond.sources) or (beyond is way.out_of and price >= beyond.price):
+            if (is_last and not beyond.n_sources) or (beyond is way.out_of and price >= beyond.price):
                 continue
             for k in range(other.n):
                 edge = &other.edges[k]
@@ -394,6 +462,14 @@ cdef class ContactPaths:
                     edge.least, edge.least_hops = further, hops
                 self.push(further, hops, other, k)
         return 0
+
+    cdef double highest_limit(self) noexcept:
+        cdef Py_ssize_t i
+        cdef double highest = 0
+        for i in range(self.n_targets):
+            if self.targets[i].at_most > highest:  # `fmax` is a call for each of thousands of targets
+                highest = self.targets[i].at_most
+        return highest
 
     cdef void drop_targets(self, double cost) noexcept:
         """Drop the targets that no path of this cost or more can improve."""

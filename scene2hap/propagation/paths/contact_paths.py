@@ -79,13 +79,21 @@ class ContactPaths:
         crossing_costs: Mapping[float, float],
         max_hops: int | None,
     ) -> None:
-        self._price_per_m, self._rows, self._crossing_costs = price_per_m, rows, crossing_costs
-        self._least_price_per_m = min(price_per_m.values(), default=0.0)
-        self._max_hops = max_hops
+        self._crossing_costs, self._max_hops = crossing_costs, max_hops
         self._edges: dict[str, dict[str, list[ContactEdge]]] = {}
         # Of these, the neighbours through which a path may lead on.
         self._onward: dict[str, dict[str, list[ContactEdge]]] = {}
         self._balls: dict[str, tuple[Triple, float]] = {}
+        self.use(price_per_m, rows)
+
+    def use(self, price_per_m: Mapping[str, float], rows: Mapping[str, int]) -> None:
+        """Use other prices and sources over the same contacts."""
+        self._price_per_m: Mapping[str, float] = price_per_m
+        self._rows: Mapping[str, int] = rows
+        self._least_price_per_m: float = min(price_per_m.values(), default=0.0)
+        for here, neighbours in self._edges.items():
+            for other in neighbours:
+                self._sort_in(here, other)
 
     def update(self, pairs: Iterable[Pair] | None, beside: Mapping[str, Mapping[str, Junction]]) -> None:
         """Read the contacts of changed pairs, None for all, from `ContactGraph.beside`."""

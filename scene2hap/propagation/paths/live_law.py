@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from scene2hap.contact.junction import Junction
 from scene2hap.propagation.bands.band_rms import BandRms
-from scene2hap.propagation.live import Prices, TouchedPoint
+from scene2hap.propagation.live import LiveField, Prices, TouchedPoint
 from scene2hap.propagation.paths.contact_paths import ContactPaths, Triple
 
 if TYPE_CHECKING:
@@ -27,6 +27,9 @@ Floats = NDArray[np.float64]
 
 _MOST_WEIGHTS = 1024
 
+_FAINTEST = 1e-5
+"""Gain [-] below which a point is not searched for: a path over a whole level would take seconds. Impacts are played
+from -60 dB on."""
 _POINT = "\0point"
 """Id of a source that is a point of an object; it is in the network only during a query."""
 
@@ -63,8 +66,19 @@ class LivePaths:
         self._graph, self._beside = graph, graph.beside
         rows = {source_id: row for row, source_id in enumerate((*source_ids, _POINT))}
         self._point_row, self._crossing_costs = len(source_ids), _CrossingCosts(crossing_cost)
-        self._paths = ContactPaths(dict(price_per_m), rows, self._crossing_costs, max_hops)
+        self._given = dict(price_per_m), rows
+        self._paths = ContactPaths(*self._given, self._crossing_costs, max_hops)
         self._version = -1
+
+    def succeed(self, before: LivePaths) -> None:
+        """Take over the network of contacts from the paths of the same law and graph with other objects or sources.
+
+        The former paths read all contacts again if they are queried.
+        """
+        self._paths, before._paths = before._paths, self._paths
+        self._version, before._version = before._version, -1
+        for one in (self, before):
+            one._paths.use(*one._given)
 
     def __del__(self) -> None:
         # Objects and their neighbours refer to each other. When sources come and go, the garbage collector would have
@@ -97,14 +111,24 @@ class LivePaths:
         found.pop()  # the row of `_POINT`
         return found
 
-    def costs_from(self, object_id: str, point_m: Triple, hands: Iterable[Iterable[tuple[str, Triple]]]) -> list[float]:
+    def costs_from(
+        self, object_id: str, point_m: Triple, hands: Sequence[Sequence[tuple[str, Triple]]], limit: float
+    ) -> list[float]:
         """Cost of the cheapest path from a point of an object to the nearest point that each hand touches, as if a
-        source without extent stood there; infinity without a path."""
+        source without extent stood there; infinity without a path.
+
+        Parameters: limit : the highest cost of interest; a higher one is infinite, unless the hand is on the object.
+        """
         self._follow_graph()
         contact, row = [(_POINT, object_id)], self._point_row
         self._paths.update(contact, {_POINT: {object_id: Junction((point_m,), (1.0,), (None,))}})
         try:
-            found = [self._paths.cheapest(touched, None, [row])[row] for touched in hands]
+            limits = [limit + self._crossing_costs[1.0]] * (row + 1)
+            is_on = [any(touched_id == object_id for touched_id, _ in touched) for touched in hands]
+            found = [
+                self._paths.cheapest(touched, None if on else limits, [row])[row]
+                for touched, on in zip(hands, is_on, strict=True)
+            ]
         finally:
             self._paths.update(contact, {})
         # The contact of `_POINT` itself costs nothing.
@@ -131,6 +155,11 @@ class LiveLaw:
         self.source_ids = source_ids
         self._paths, self._gamma, self._floor = paths, gamma, floor
 
+    def succeed(self, before: LiveField) -> None:
+        """See `SucceedingField`."""
+        if isinstance(before, LiveLaw):
+            self._paths.succeed(before._paths)
+
     def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:
         """See `LiveField`."""
         return self.at(self.prices(hands))
@@ -156,8 +185,10 @@ class LiveLaw:
         self, object_id: str, point_m: Triple, hands: Sequence[Sequence[TouchedPoint]], frequencies_hz: Floats
     ) -> Floats:
         """See `PointField`."""
-        costs = np.array(self._paths.costs_from(object_id, point_m, hands)).reshape(-1, 1)
-        gamma: Floats = np.exp(-costs * np.sqrt(2 * math.pi * frequencies_hz))
+        root_omega = np.sqrt(2 * math.pi * frequencies_hz)
+        limit = math.inf if self._floor else -math.log(_FAINTEST) / float(root_omega.min())
+        costs = np.array(self._paths.costs_from(object_id, point_m, hands, limit)).reshape(-1, 1)
+        gamma: Floats = np.exp(-costs * root_omega)
         arrives: Floats = np.isfinite(costs).astype(np.float64)
         return np.maximum(gamma, self._floor * arrives)
 

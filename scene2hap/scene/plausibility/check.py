@@ -178,9 +178,9 @@ def _resting_share(boxes: NDArray[np.float64], up: int) -> float:
     low, high = boxes[:, 0], boxes[:, 1]
     level = [axis for axis in range(3) if axis != up]
     rests = low[:, up] - low[:, up].min() <= _RESTS_M
-    for some in _batches(len(boxes)):
-        gaps = low[some, None, up] - high[None, :, up]
-        over = ((low[some, None, :] < high) & (high[some, None, :] > low))[..., level].all(axis=2)
+    for some, near in _batches(boxes):
+        gaps = low[some, None, up] - high[None, near, up]
+        over = ((low[some, None, :] < high[near]) & (high[some, None, :] > low[near]))[..., level].all(axis=2)
         rests[some] |= (over & (np.abs(gaps) <= _RESTS_M)).any(axis=1)
     return float(rests.mean())
 
@@ -197,29 +197,39 @@ def _has_level_ground(scene: SceneData, boxes: NDArray[np.float64], up: int) -> 
     )
 
 
-def _batches(n_rows: int) -> Iterator[slice]:
-    """Yield all rows in slices. Comparing thousands of boxes with all others at once would take a gigabyte."""
-    for start in range(0, n_rows, _BATCH):
-        yield slice(start, start + _BATCH)
+def _batches(boxes: NDArray[np.float64], reach_m: float = 0.0) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+    """Yield the rows of all boxes (n, 2, 3) in batches along x, each with the rows within a reach of it along x.
+
+    Comparing thousands of boxes with all others would take many seconds, and at once a gigabyte.
+    """
+    by_x = np.argsort(boxes[:, 0, 0], kind="stable")
+    for start in range(0, len(boxes), _BATCH):
+        some = by_x[start : start + _BATCH]
+        yield some, _along_x(boxes, boxes[some], reach_m)
+
+
+def _along_x(boxes: NDArray[np.float64], some: NDArray[np.float64], reach_m: float) -> NDArray[np.intp]:
+    """Return the rows of the boxes (n, 2, 3) that are within a reach of some boxes along x."""
+    low, high = some[:, 0, 0].min() - reach_m, some[:, 1, 0].max() + reach_m
+    return np.flatnonzero((boxes[:, 0, 0] <= high) & (boxes[:, 1, 0] >= low))
 
 
 def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
     if len(ids) < 2:
         return
-    nearest = np.empty(len(ids))
-    for some in _batches(len(ids)):
-        apart = distances(boxes[some, None], boxes)
-        rows = np.arange(len(apart))
-        apart[rows, some.start + rows] = np.inf
-        nearest[some] = apart.min(axis=1)
-    lowest = boxes[:, 0, up].min()
-    alone = np.flatnonzero((nearest > _FLOATS_M) & (boxes[:, 0, up] - lowest > _FLOATS_M))
+    is_alone = boxes[:, 0, up] - boxes[:, 0, up].min() > _FLOATS_M
+    for some, near in _batches(boxes, _FLOATS_M):
+        within = distances(boxes[some, None], boxes[near]) <= _FLOATS_M
+        within[some[:, None] == near] = False
+        is_alone[some] &= ~within.any(axis=1)
+    alone = np.flatnonzero(is_alone)
     if len(alone):
         row = alone[0]
+        nearest_m = distances(boxes[row], np.delete(boxes, row, axis=0)).min()
         yield Finding(
             "floating",
             tuple(ids[k] for k in alone),
-            f"{_named(ids, alone)} {'float' if len(alone) > 1 else 'floats'}: {ids[row]!r} is {nearest[row]:.2f} m "
+            f"{_named(ids, alone)} {'float' if len(alone) > 1 else 'floats'}: {ids[row]!r} is {nearest_m:.2f} m "
             f"from the nearest other object, more than {_FLOATS_M} m. Move {_them(alone)} onto something, or touch "
             f"{_them(alone)} alone.",
         )
@@ -233,17 +243,18 @@ def _floating_inside(scene: SceneData, boxes: NDArray[np.float64], ids: tuple[st
     Boxes of triangles stand for surfaces, so that an object that may touch something is never named.
     """
     reach_m = np.minimum(_REACH_M, _REACH_SIZES * np.linalg.norm(boxes[:, 1] - boxes[:, 0], axis=1))
-    holds = _holds(boxes)
-    n_held = holds.sum(axis=1)
+    holders, held = _holds(boxes)
+    n_held = np.bincount(holders, minlength=len(ids))
     is_room = (n_held >= _FEW) & (n_held > (len(ids) - 1) / 2)
     triangles: dict[int, NDArray[np.float64]] = {}
     found: list[tuple[int, int, float]] = []
-    for row in np.flatnonzero(holds[~is_room].any(axis=0)).tolist():
-        near = distances(boxes, boxes[row]) <= reach_m[row]
-        near[row] = False
-        if (near & ~holds[:, row]).any():
+    for row in np.unique(held[~is_room[holders]]).tolist():
+        near = _along_x(boxes, boxes[[row]], reach_m[row])
+        near = near[distances(boxes[near], boxes[row]) <= reach_m[row]]
+        first, end = np.searchsorted(held, (row, row + 1))
+        hosts = holders[first:end].tolist()
+        if not {row, *hosts}.issuperset(near.tolist()):
             continue
-        hosts = np.flatnonzero(holds[:, row]).tolist()
         for host in hosts:
             if host not in triangles:
                 triangles[host] = _triangle_boxes(scene.objects[host])
@@ -264,13 +275,21 @@ def _floating_inside(scene: SceneData, boxes: NDArray[np.float64], ids: tuple[st
         )
 
 
-def _holds(boxes: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return whether each box (n, 2, 3) holds each other one (n, n), and is larger."""
-    holds = np.empty((len(boxes), len(boxes)), dtype=bool)
-    for some in _batches(len(boxes)):
-        one, other = boxes[some, None], boxes[None]
-        holds[some] = ((one[..., 0, :] <= other[..., 0, :]) & (one[..., 1, :] >= other[..., 1, :])).all(axis=2)
-    return holds & ~holds.T
+def _holds(boxes: NDArray[np.float64]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return the rows of all pairs of boxes (n, 2, 3) of which the first holds the second and is larger.
+
+    The pairs are sorted by the second, then by the first.
+    """
+    found = [np.empty((2, 0), dtype=np.intp)]
+    for some, near in _batches(boxes):
+        one, other = boxes[near, None], boxes[None, some]
+        holds = ((one[..., 0, :] <= other[..., 0, :]) & (one[..., 1, :] >= other[..., 1, :])).all(axis=2)
+        holds &= (one != other).any(axis=(2, 3))
+        holder, held = np.nonzero(holds)
+        found.append(np.stack([near[holder], some[held]]))
+    holder, held = np.concatenate(found, axis=1)
+    by_held = np.lexsort((holder, held))
+    return holder[by_held], held[by_held]
 
 
 def _surrounds(boxes: NDArray[np.float64], box: NDArray[np.float64]) -> bool:

@@ -13,7 +13,7 @@ from threading import Thread
 from scene2hap.errors import Scene2HapError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.controls import NoPropagation
-from scene2hap.propagation.live import LiveField, LiveModel, TouchedPoint
+from scene2hap.propagation.live import LiveField, LiveModel, SucceedingField, TouchedPoint
 from scene2hap.propagation.protocol import (
     Body,
     ContactNetwork,
@@ -244,8 +244,11 @@ class LiveKeeper:
         self.n_prepared += 1
         bodies = self._state.bodies
         if self._made_for is None or self._made_for[0] is not bodies or self._made_for[1] is not excitations:
+            field = self._model.live(self._state.graph, bodies, excitations, self._bands)
+            if self._made_for is not None and isinstance(field, SucceedingField):
+                field.succeed(self.in_use)
             self._made_for = (bodies, excitations)
-            self.in_use: LiveField = self._model.live(self._state.graph, bodies, excitations, self._bands)
+            self.in_use: LiveField = field
             self._mapped = None
 
     def order(self) -> None:

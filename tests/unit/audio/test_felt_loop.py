@@ -146,3 +146,14 @@ def test_levels_hold_on_a_resonant_actuator() -> None:
     answer = a[1:] / np.sqrt(1 + (12.0 * (r - 1 / r)) ** 2)
     felt = np.sum((answer / 10 ** (threshold_db(f[1:]) / 20))[f[1:] <= 1000] ** 2)
     assert 10 * math.log10(felt) == pytest.approx(31.0 + 17.0 * math.log10(0.2), abs=0.1)
+
+
+def test_sources_that_share_a_sound_are_analysed_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    measured = []
+
+    def noted(samples: np.ndarray, sample_rate_hz: float) -> None:
+        measured.append(len(samples))
+
+    monkeypatch.setattr("scene2hap.audio.felt_loop.rhythm_hz", noted)
+    plan_scene([*kitchen().values()] * 5, Adaptive(), FLAT)
+    assert 0 < len(measured) <= len(kitchen())

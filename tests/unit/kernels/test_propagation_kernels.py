@@ -107,6 +107,11 @@ def test_kernels_find_the_same_paths_as_contacts_change(seed: int, max_hops: int
         touched = [(str(rng.choice([*ids, "nobody"])), place) for place in places(rng, int(rng.integers(0, 3)))]
         limits = rng.choice([0.5, 3.0, math.inf], 3).tolist() if rng.random() < 0.7 else None
         among = {0, 2} if rng.random() < 0.3 else None
+        if rng.random() < 0.3:
+            prices = {x: round(float(rng.uniform(0.0, 2.0)), 1) for x in ids if rng.random() < 0.8}
+            rows = {x: row for row, x in enumerate(rng.permutation(ids)[:3].tolist())}
+            for network in networks:
+                network.use(prices, rows)
         for network in networks:
             network.update(None if rng.random() < 0.2 else pairs, beside)
         plain, twin = (network.cheapest(touched, limits, among) for network in networks)

@@ -7,6 +7,7 @@ import pytest
 
 from garbage import no_garbage_collection
 from scene2hap import HapticSession, MemorySink, Pose, Touch
+from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import ConfigError, SceneError, SessionError, UnknownObject
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
 
@@ -400,3 +401,22 @@ def test_deleted_sessions_release_memory_and_workers(kind: str) -> None:
             time.sleep(0.01)
         assert [one() for one in gone] == [None] * len(gone)
     assert not any(t.is_alive() for t in workers)
+
+
+def test_contacts_of_the_other_objects_are_not_read_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of 10,000 objects, an update after an object was added or removed took 260 to 500 ms."""
+    s, known = session(), []
+    s.update(touches=[ON_TABLE])
+    changed_since = ContactGraph.changed_since
+
+    def noted(self: ContactGraph, version: int) -> object:
+        known.append(changed_since(self, version))
+        return known[-1]
+
+    monkeypatch.setattr(ContactGraph, "changed_since", noted)
+    item, told, loop = fan()
+    for change in (lambda: s.add(item, told, {"on": loop}), lambda: s.remove("fan"), lambda: s.remove("phone")):
+        change()
+        s.update(touches=[ON_TABLE])
+    assert known
+    assert None not in known

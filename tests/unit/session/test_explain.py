@@ -333,3 +333,20 @@ def test_explanation_names_a_source_inside_the_touched_object() -> None:
     assert inside.startswith("Inside it, too far from its surface to touch: 'motor'; ")
     s.update({"motor": Pose((0.0, 0.2, 1.0))}, [touch])
     assert s.explain("left").reasons == (nothing,)
+
+
+def test_paths_are_searched_to_the_felt_sources_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of 10,000 objects, `explain` took 11 s to search for sources that the hand does not feel."""
+    s = HapticSession(*shelf_on_table(), {"sample_rate_hz": RATE})
+    s.update(touches=[ON_TABLE])
+    limits: list[object] = []
+    search = LivePaths.least_costs
+
+    def noted(self: LivePaths, touched: Any, limit: Any = None, among: Any = None) -> list[float]:
+        limits.append(limit)
+        return search(self, touched, limit, among)
+
+    monkeypatch.setattr(LivePaths, "least_costs", noted)
+    assert [one.source_id for one in s.explain("left").felt] == ["phone"]
+    assert limits
+    assert None not in limits
