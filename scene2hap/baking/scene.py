@@ -32,6 +32,7 @@ from scene2hap.llm.questions import Slots
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.wrappers import reports
+from scene2hap.scene import limits
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.grouping.empty_names import names_a_place
 from scene2hap.scene.objects import SceneObject, UpAxis
@@ -73,7 +74,8 @@ def bake(
     overrides : a person's corrections by id, for example of an earlier bundle; they replace inferred values.
     earlier : a bundle of this scene; the states and loops of objects that `overrides` lock are taken from it.
 
-    Raises: ConfigError; BackendError: inference failed; AudioError: no source has a sound for a vibrating object.
+    Raises: ConfigError; SceneError: more objects than a bundle may have (`scene.limits`); BackendError: inference
+    failed; AudioError: no source has a sound for a vibrating object.
     """
     baking = abake(
         scene,
@@ -100,6 +102,7 @@ async def abake(
 ) -> HapticBundle:
     """Bake a scene, awaitable; see `bake`."""
     scene = given_scene(scene)
+    limits.at_most("the number of objects", len(scene.objects), "MAX_OBJECTS")  # else its bundle could not be loaded
     _require_callable(progress=progress, on_report=on_report)
     config = BakeConfig.parse(config)
     wishes = of_this_scene(overrides or {}, scene)

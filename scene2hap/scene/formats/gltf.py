@@ -59,6 +59,8 @@ class _Reader:
         self._file, self._materials = file, materials
         self._seen: set[int] = set()
         self._pieces: dict[int, tuple[Piece, ...]] = {}
+        # By the text of a mesh's primitives: trimesh repeats these in a mesh of its own for each copy.
+        self._same_pieces: dict[str, tuple[Piece, ...]] = {}
         self._scaled_pieces: dict[tuple[object, bytes], Piece] = {}
         self._size = limits.TreeSize()
 
@@ -131,9 +133,11 @@ class _Reader:
             rows = mesh.get("primitives")
             if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
                 raise SceneFormatError(f"meshes[{number}].primitives must be a list of objects.")
-            place = f"{place}, meshes[{number}]"
-            pieces = (self._piece((number, i), row, place) for i, row in enumerate(rows))
-            self._pieces[number] = tuple(piece for piece in pieces if piece is not None and len(piece.faces))
+            place, text = f"{place}, meshes[{number}]", repr(rows)
+            if text not in self._same_pieces:
+                pieces = (self._piece((number, i), row, place) for i, row in enumerate(rows))
+                self._same_pieces[text] = tuple(piece for piece in pieces if piece is not None and len(piece.faces))
+            self._pieces[number] = self._same_pieces[text]
         return self._pieces[number]
 
     def _piece(self, key: tuple[int, int], row: Json, place: str) -> Piece | None:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 
 from scene2hap import load_scene
 from scene2hap.errors import SceneError
@@ -223,6 +224,17 @@ def test_draco_mesh_is_counted_before_decoding_and_decoded_once(
 def refuse_packed(budget: limits.Budget, amount: int, place: str) -> None:
     if "packed" in budget.what:
         raise SceneError(f"{amount} packed")
+
+
+def test_copies_that_trimesh_writes_as_meshes_are_counted_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    rocks = trimesh.Scene()
+    for i in range(5):
+        rocks.add_geometry(trimesh.creation.icosphere(2), node_name=f"rock {i}", transform=np.eye(4))
+    rocks.export(tmp_path / "rocks.glb")
+    spent: list[tuple[str, int]] = []
+    monkeypatch.setattr(limits.Budget, "spend", lambda budget, amount, place: spent.append((budget.what, amount)))
+    assert len(load_scene(tmp_path / "rocks.glb").objects) == 5
+    assert [amount for what, amount in spent if what == "its triangles"] == [320]
 
 
 def test_repeated_draco_primitives_are_limited(tmp_path: Path) -> None:
