@@ -149,13 +149,12 @@ class SceneSnapshot(SceneData):
         """Move some objects. Returns a scene with new heights, without given contacts and images."""
         for object_id in moved:
             self.object(object_id)
-        # Objects that stay keep the bounds that they have derived.
-        objects = [
-            item
-            if item.images is None and (pose := moved.get(item.id, item.pose)) == item.pose
-            else replace(item, pose=pose, images=None)
-            for item in self.objects
-        ]
+        objects = []
+        for item in self.objects:
+            pose = moved.get(item.id, item.pose)
+            # Objects that stay keep the bounds that they have derived.
+            is_same = pose == item.pose and item.images is None
+            objects.append(item if is_same else replace(item, pose=pose, images=None))
         return SceneSnapshot(self.name, self.up_axis, with_relative_heights(objects, self.up_axis))
 
     def check(self) -> tuple[Finding, ...]:

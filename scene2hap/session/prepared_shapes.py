@@ -53,9 +53,10 @@ class PreparedShapes:
             if self._worker.is_alive():
                 return False
         for shape in self._ordered.values():
-            if end.left_s == 0.0:
-                return False
-            shape.prepare()
+            if not shape.is_prepared:
+                if end.left_s == 0.0:
+                    return False
+                shape.prepare()
         return True
 
 

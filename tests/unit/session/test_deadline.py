@@ -25,13 +25,15 @@ class Clock:
         return True
 
 
-@pytest.mark.parametrize(("timeout_s", "left_s"), [(5.0, [5.0, 3.0, 1.0]), (3.0, [3.0, 1.0, 0.0]), (None, [None] * 3)])
+@pytest.mark.parametrize(
+    ("timeout_s", "left_s"), [(5.0, [5.0, 3.0, 1.0, 0.0]), (3.0, [3.0, 1.0, 0.0, 0.0]), (None, [None] * 4)]
+)
 def test_all_waits_of_a_session_share_its_timeout(
     monkeypatch: pytest.MonkeyPatch, timeout_s: float | None, left_s: list[float | None]
 ) -> None:
     s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE})
     clock = Clock(monkeypatch)
-    for part in (s._playback, s._impacts, s._hand_frames):
+    for part in (s._playback, s._impacts, s._hand_frames, s._shapes):
         monkeypatch.setattr(part, "wait", clock.later)
     assert s.wait_prepared(timeout_s)
     assert clock.left_s == left_s

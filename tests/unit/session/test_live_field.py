@@ -116,7 +116,7 @@ def test_plugin_can_provide_a_live_field() -> None:
     s.remove("alarm")
     assert s.update(touches=[ON_TABLE]).sources == ("phone",)
     assert model.n_fields == 2
-    assert s.wait_prepared(0.0)
+    assert s.wait_prepared(10.0)
     assert s.stats.field_age_s == 0
 
 
