@@ -412,7 +412,7 @@ cdef class ContactPaths:
     cdef int expand(self, Neighbour way, Edge* at, double cost, int hops) except -1:
         cdef Object here = way.into, beyond
         cdef Neighbour other
-        cdef Py_ssize_t i, j, k
+        cdef Py_ssize_t j, k
         cdef double price = here.price, further, limit
         cdef bint is_last = False
         cdef Target* target
