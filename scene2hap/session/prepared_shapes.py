@@ -17,6 +17,10 @@ from scene2hap.scene.shapes import TriMesh
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.worker_threads import start_worker
 
+N_OF_BOX = 12
+"""Triangles of a box. The worker leaves boxes out, whose contacts seldom need triangles: 1.5 ms each, and a level may
+hold thousands."""
+
 _ENDING = Event()
 
 
@@ -39,8 +43,9 @@ class PreparedShapes:
         self._ordered.update(new)
         if not self._in_background:
             return
-        unprepared = [shape for shape in new.values() if not shape.is_prepared]
-        self._waiting += sorted(unprepared, key=lambda shape: -shape.triangles.shape[2])
+        n_triangles = {shape: shape.triangles.shape[2] for shape in new.values() if not shape.is_prepared}
+        unprepared = [shape for shape, n in n_triangles.items() if n > N_OF_BOX]
+        self._waiting += sorted(unprepared, key=lambda shape: -n_triangles[shape])
         # Starting a thread may take milliseconds, so that a wave of spawned objects has one. `wait` prepares what a
         # worker does not see that ends at this moment.
         if self._waiting and (self._worker is None or not self._worker.is_alive()):
