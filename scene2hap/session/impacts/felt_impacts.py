@@ -110,7 +110,8 @@ class Impacts:
     ) -> None:
         self._config, self._state, self._playback = config, state, playback
         self._field, self._user_factor = field, user_factor
-        self._landings = Landings(state.graph, state.middle_m, config.control_period_s) if config.impacts else None
+        followed = (state.graph, state.middle_m, state.closed_at, config.control_period_s)
+        self._landings = Landings(*followed) if config.impacts else None
         self._last: dict[tuple[str, str | None], int] = {}
         self._looked_at: object = None
         self._point_field: PointField | None = None

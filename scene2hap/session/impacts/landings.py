@@ -7,6 +7,8 @@ of the step before, in length and in speed. These motions are no landings:
 - an object that a hand puts down or shakes over a table: it slows down as fast as a hand can;
 - an object that slides: most of its travel is across the contact's normal;
 - an object that rolls: its rim comes down on the floor, while its middle keeps its distance.
+
+A hinge is the only contact of a door with its cabinet. There the edge far from the hinge is what meets the cabinet.
 """
 
 from __future__ import annotations
@@ -65,11 +67,19 @@ class Landings:
     """Follows moving objects, and finds those that land.
 
     Parameters: graph : the contacts, read at each `look`; middle_m : the middle of an object's box, in its own frame
-    [m]; period_s : usual time between updates, for a clock that stands still.
+    [m]; closed_at : the point [m], world, at which an object that a hinge holds on another is closed against it, within
+    a distance [m]; None if it is open or has no such hinge; period_s : usual time between updates, for a clock that
+    stands still.
     """
 
-    def __init__(self, graph: ContactGraph, middle_m: Callable[[str], Vector], period_s: float) -> None:
-        self._graph, self._middle_m, self._period_s = graph, middle_m, period_s
+    def __init__(
+        self,
+        graph: ContactGraph,
+        middle_m: Callable[[str], Vector],
+        closed_at: Callable[[str, str, float], Vector | None],
+        period_s: float,
+    ) -> None:
+        self._graph, self._middle_m, self._closed_at, self._period_s = graph, middle_m, closed_at, period_s
         self._tracks: dict[str, MotionTrack] = {}
         self._near: dict[str, dict[str, Junction]] = {}
         """Contacts of each moving object before the present step, and in all of its updates but the last."""
@@ -200,14 +210,18 @@ class Landings:
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
         beside, met = self._graph.beside.get(object_id, _NOTHING), self._met(object_id)
-        # The graph's order depends on the hashes of ids, which differ in each run of Python. Present contacts first.
-        others = sorted(met, key=lambda x: (x not in beside, x))
+        # A door that bounces is a step away by now; its edge moves twice as far as its middle.
+        within_m = 2 * math.hypot(*track.step_m)
+        edges = {x: edge for x in met if (edge := self._closed_at(object_id, x, within_m)) is not None}
+        # The graph's order depends on the hashes of ids, which differ in each run of Python. Present contacts first,
+        # and before hinges those that show where the two meet.
+        others = sorted(met, key=lambda x: (x not in beside, x in edges, x))
         for other, junction in [(x, side) for x in others for side in _sides(met[x])]:
-            if best is not None and other not in beside:
+            if best is not None and (other not in beside or other in edges):
                 break
-            point = _middle(junction)
-            normal = self._normal(object_id, other, point, junction, first)
+            point = edges.get(other) or _middle(junction)
             came = self._nearing(object_id, other, point, first, last)
+            normal = _direction(came) if other in edges else self._normal(object_id, other, point, junction, first)
             closing = dot(came, normal)
             if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
                 step = dot(self._nearing(object_id, other, point, before, last), normal)
@@ -217,6 +231,8 @@ class Landings:
                     continue
                 if self._stops_suddenly(object_id, other, point, normal, [*run, (now, time_s)]):
                     best, most_m = (other, point), closing
+                    if other in edges:  # an arc of 50 ms is as long as its chord
+                        break
                     turned_m = dot(self._turning(object_id, point, first, last), normal)
                     turns_m = dot(self._spin(object_id, point, before, last), normal)
         if best is None:
@@ -315,8 +331,13 @@ class Landings:
         if across is not None and (height := float(across @ outward)):
             outward = across * height
         x, y, z = outward.tolist()
-        length = math.hypot(x, y, z)
-        return (x / length, y / length, z / length) if length > 0 else (0.0, 0.0, 0.0)
+        return _direction((x, y, z))
+
+
+def _direction(way: Vector) -> Vector:
+    """The unit vector along a way, zero for none."""
+    length = math.hypot(*way)
+    return (way[0] / length, way[1] / length, way[2] / length) if length > 0 else STILL
 
 
 def _normal_of_plane(points_m: Sequence[Vector]) -> NDArray[np.float64] | None:

@@ -36,10 +36,14 @@ def _middle(object_id: str) -> tuple[float, float, float]:
     return 0.0, 0.0, 0.0  # boxes are centred
 
 
+def _without_hinge(object_id: str, on: str, within_m: float) -> None:
+    pass
+
+
 def landings_of(path: Path, *, moved: str = "cup", period_s: float = PERIOD_S, clock: bool = True) -> list[Landing]:
     """The landings while an object moves along a path, and for half a second afterwards."""
     graph = room()
-    landings, found, time_s, last = Landings(graph, _middle, period_s), list[Landing](), 0.0, None
+    landings, found, time_s, last = Landings(graph, _middle, _without_hinge, period_s), list[Landing](), 0.0, None
     at = [*path]
     for position in [*at, *[None] * 45]:
         poses = {} if position is None else {moved: Pose(position)}
@@ -58,7 +62,7 @@ def landings_in(
     middle_m: Callable[[str], Triple] = _middle,
 ) -> list[Landing]:
     """What lands in frames of a time [s] and poses, and in half a second more."""
-    landings, found, time_s = Landings(graph, middle_m, PERIOD_S), list[Landing](), 0.0
+    landings, found, time_s = Landings(graph, middle_m, _without_hinge, PERIOD_S), list[Landing](), 0.0
     given = [*frames]
     for time_s, poses in [*given, *((given[-1][0] + (i + 1) * PERIOD_S, {}) for i in range(45))]:
         landings.begin(poses, time_s)
@@ -98,7 +102,7 @@ def test_object_that_lands_on_several_lands_on_the_first_by_id(names: str) -> No
 
 def test_object_lands_with_the_first_frame_at_rest() -> None:
     graph = room()
-    landings = Landings(graph, _middle, PERIOD_S)
+    landings = Landings(graph, _middle, _without_hinge, PERIOD_S)
     when = []
     for step, position in enumerate(fall(0.3, PERIOD_S)):
         poses = {"cup": Pose(position)}
@@ -171,7 +175,7 @@ def test_object_that_moves_in_some_of_many_updates_lands(phase: int) -> None:
 def test_contact_in_any_update_of_a_fast_bounce_counts(updates_hz: int) -> None:
     """A ball that bounces off within 2 ms is out of reach by the end of the step, whose contacts an engine gives."""
     graph = room()
-    landings, found = Landings(graph, _middle, PERIOD_S), list[Landing]()
+    landings, found = Landings(graph, _middle, _without_hinge, PERIOD_S), list[Landing]()
     for step in range(round(0.4 * updates_hz)):
         t = step / updates_hz - 0.2
         y = RESTS_M + (-4.0 * t if t < 0 else 3.0 * t)
@@ -201,7 +205,7 @@ def test_turning_object_that_bounces_as_high_as_it_fell_lands(begins: float, fra
         meets = Contact("cup", "table", (0.0, 0.7, 0.0), (0.0, -1.0, 0.0))
         frames.append((step / frames_hz, {"cup": pose}, [meets] if abs(t) < 1 / frames_hz else []))
     graph = room()
-    landings, found = Landings(graph, _middle, PERIOD_S), list[Landing]()
+    landings, found = Landings(graph, _middle, _without_hinge, PERIOD_S), list[Landing]()
     for time_s, poses, touching in frames:
         landings.begin(poses, time_s)
         graph.update(poses, contacts=touching)
@@ -256,7 +260,7 @@ def test_resting_sliding_or_jittering_object_does_not_land(kind: Callable[[np.ra
 
 def test_objects_carried_together_do_not_land() -> None:
     graph = room()
-    landings = Landings(graph, _middle, PERIOD_S)
+    landings = Landings(graph, _middle, _without_hinge, PERIOD_S)
     graph.update({"cup": Pose((-0.4, 0.79, 0.2))})
     found = []
     for step in range(40):
@@ -270,7 +274,7 @@ def test_objects_carried_together_do_not_land() -> None:
 
 def test_dropped_stack_lands_with_its_lowest_object() -> None:
     graph = room()
-    landings = Landings(graph, _middle, PERIOD_S)
+    landings = Landings(graph, _middle, _without_hinge, PERIOD_S)
     found = []
     for step in range(40):
         y = max(0.0, 0.5 - 0.03 * step)
@@ -283,7 +287,7 @@ def test_dropped_stack_lands_with_its_lowest_object() -> None:
 
 def test_object_removed_while_falling_does_not_land() -> None:
     graph = room()
-    landings = Landings(graph, _middle, PERIOD_S)
+    landings = Landings(graph, _middle, _without_hinge, PERIOD_S)
     for step in range(3):
         poses = {"cup": Pose((0.0, 1.2 - 0.03 * step, 0.0))}
         landings.begin(poses, step * PERIOD_S)
@@ -427,7 +431,7 @@ def test_block_that_slides_on_a_tray_lands_on_its_rim() -> None:
     graph = ContactGraph(
         scene(box("block", (0.06, 0.06, 0.06), (0.0, 0.03, 0.0)), box("tray", (0.8, 0.02, 0.6), (0, -0.01, 0)))
     )
-    landings, found = Landings(graph, _middle, PERIOD_S), list[Landing]()
+    landings, found = Landings(graph, _middle, _without_hinge, PERIOD_S), list[Landing]()
     for frame in range(45):
         x = min(0.01 * frame, 0.35)
         contacts = [Contact("block", "tray", (x + dx, 0.0, 0.0), (0.0, -1.0, 0.0)) for dx in (-0.03, 0.03)]
