@@ -1,11 +1,8 @@
 """MuJoCo joints as hinges.
 
 A body with hinge or ball joints alone is held on the drawn body before it, if only welds lie between the two. So is a
-body that is welded to one that moves, such as the hand of a robot. Contacts of other bodies are found from geometry:
-
-- of those that MuJoCo lets collide, such as a door and a cabinet that does not move: the door may slam;
-- of those that slide on others, since they touch along their rails;
-- of those that are fixed to the world.
+body that is welded to one that moves, such as the hand of a robot. Contacts of other bodies are found from geometry: of
+those that slide on others, since they touch along their rails, and of those that are fixed to the world.
 
 Source: MuJoCo documentation (Google DeepMind), XML reference, `joint`; mjData: xanchor, xaxis.
 """
@@ -36,7 +33,7 @@ def hinges(model: Any, data: Any, of_body: Mapping[int, SceneObject], unit_m: fl
         before = _held_on(model, body, of_body)
         other = of_body.get(before)
         turns = all(model.jnt_type[joint] in (_BALL, _HINGE) for joint in joints)
-        if other is None or not turns or model.body_weldid[body] == _WORLD or _may_collide(model, body, before):
+        if other is None or not turns or model.body_weldid[body] == _WORLD:
             continue
         if n == 0:
             hinge = welded_at(item, other)
@@ -54,15 +51,3 @@ def _held_on(model: Any, body: int, drawn: Collection[int]) -> int:
     while parent not in drawn and parent != _WORLD and model.body_jntnum[parent] == 0:
         parent = int(model.body_parentid[parent])
     return parent
-
-
-def _may_collide(model: Any, body: int, before: int) -> bool:
-    """Return True if MuJoCo finds contacts of a body and the one before it, which does not move."""
-    if model.body_weldid[before] != _WORLD:
-        return False
-    excluded = {(int(both) >> 16, int(both) & 0xFFFF) for both in model.exclude_signature}
-    if (body, before) in excluded or (before, body) in excluded:
-        return False
-    own, theirs = (np.flatnonzero(model.geom_bodyid == each) for each in (body, before))
-    kinds, partners = model.geom_contype, model.geom_conaffinity
-    return bool((kinds[own][:, None] & partners[theirs]).any() or (kinds[theirs][:, None] & partners[own]).any())

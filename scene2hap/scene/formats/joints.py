@@ -1,7 +1,7 @@
 """The joints of a file as pivots between its bodies.
 
-A body that turns on one that moves is held there, and so is one that is fixed to one that moves. Nothing holds at a
-body that does not move: a door may slam against it, so that geometry finds its contacts.
+A body that turns on another is held there, and so is one that is fixed to one that moves. Bodies that do not move have
+the contacts that geometry finds, such as all of a shelf's on its wall.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def pivots(joints: Mapping[str, Joint], drawn: Collection[str]) -> Iterator[Auth
             on = joints[on].on
         if joint.motion == "fixed" and _moves(on, joints):
             yield AuthoredPivot(key, on)
-        elif joint.motion == "turns" and _moves(on, joints):
+        elif joint.motion == "turns":
             yield AuthoredPivot(key, on, joint.anchor, joint.axis)
 
 

@@ -2,7 +2,7 @@
 
 1. Every link with geometry is an object. It has the link's name, and the pose of the link's frame with all joints at 0.
    Links with a fixed joint stay separate. A link without geometry is a frame, and no object. A link that turns on
-   one that moves, or is fixed to one, has a hinge.
+   another, or is fixed to one that moves, has a hinge.
 2. The <visual> geometry of a link is drawn; its <collision> geometry only if it has no other.
 3. A mesh keeps its own materials. A mesh without materials, such as STL, and shapes such as boxes have the material of
    their <visual>. As in ROS, meshes are never rotated to another up axis, and COLLADA's unit counts.
