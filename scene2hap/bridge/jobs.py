@@ -9,7 +9,6 @@ import json
 import secrets
 import shutil
 import sys
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -17,6 +16,7 @@ from typing import Any
 from scene2hap.bridge.hosted_session import error_message
 from scene2hap.bridge.pictures import temporary_files
 from scene2hap.bridge.session_warnings import Tell
+from scene2hap.bridge.temporary_folder import TemporaryFolder
 from scene2hap.errors import BridgeError
 from scene2hap.interpreter import can_start_python
 from scene2hap.text_files import write_whole
@@ -33,7 +33,7 @@ class Jobs:
     """All bakes of a server. Unsaved bundles are in a temporary folder until the server ends."""
 
     def __init__(self) -> None:
-        self._temporary: tempfile.TemporaryDirectory[str] | None = None
+        self._temporary: TemporaryFolder | None = None
         # Starts at a random number, so that a job number from before a restart does not match another client's bake.
         self._job_numbers, self._numbers = itertools.count(1 + secrets.randbelow(1 << 30)), itertools.count(1)
         self._tasks: dict[int, asyncio.Task[None]] = {}
@@ -43,11 +43,10 @@ class Jobs:
     @property
     def folder(self) -> Path:
         """The folder for files that jobs read and write. Raises: BridgeError: it cannot be made."""
-        # Made at its first use, since a server that is killed leaves it behind.
         if self._temporary is None:
             with temporary_files():
-                self._temporary = tempfile.TemporaryDirectory(prefix="scene2hap-bridge-", ignore_cleanup_errors=True)
-        return Path(self._temporary.name)
+                self._temporary = TemporaryFolder()
+        return self._temporary.path
 
     def require_place(self) -> None:
         """Raise a BridgeError if no bake can start now: too many run, or this program cannot start Python."""
@@ -111,7 +110,7 @@ class Jobs:
         for job in [*self._tasks]:
             await self.cancel(job)
         if self._temporary is not None:
-            await asyncio.to_thread(self._temporary.cleanup)
+            await asyncio.to_thread(self._temporary.delete)
 
     async def _bake(self, job: int, wanted: Mapping[str, Any], folder: Path) -> None:
         process: asyncio.subprocess.Process | None = None
