@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 
 from scene2hap.contact.body import Body, apart_by
 from scene2hap.contact.geometry.vectors import Triple
-from scene2hap.scene.hinges import HINGE_PLAY_M, firsts
+from scene2hap.scene.hinges import HINGE_PLAY_M, series
 
 
 def are_hinged(x: Body, y: Body) -> bool:
@@ -63,7 +63,7 @@ class HingedBodies:
             self._update(x)
         if self.on == before:
             return []
-        past, self._first = self._first, firsts(self.on)
+        past, self._first = self._first, {x: first for x, (first, _) in series(self.on).items()}
         ids = past.keys() | self._first.keys() | (before.keys() ^ self.on.keys())
         return sorted(x for x in ids if x in self._bodies and past.get(x) != self._first.get(x))
 

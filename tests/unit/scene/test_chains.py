@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from scene2hap import Hinge
-from scene2hap.scene.hinges import Chain, chains, firsts
+from scene2hap.scene.hinges import Chain, chains, series
 from scripted_backend import box
 
 
@@ -20,10 +20,14 @@ def test_a_chain_has_all_objects_that_hinges_join_and_its_longest_series() -> No
 
 
 def test_objects_that_hang_on_each_other_have_the_least_id_of_their_ring() -> None:
-    assert firsts({"d": "c", "c": "a", "a": "b", "b": "c", "e": "f"}) == {**dict.fromkeys("abcd", "a"), "e": "f"}
+    assert series({"d": "c", "c": "a", "a": "b", "b": "c", "e": "f"}) == {
+        **dict.fromkeys("abc", ("a", 2)),
+        "d": ("a", 3),
+        "e": ("f", 1),
+    }
 
 
 def test_long_ropes_take_time_in_proportion_to_their_length() -> None:
     n = 20_000
     rope = {str(i): str(i - 1) for i in range(n, 0, -1)}
-    assert set(firsts(rope).values()) == {"0"}
+    assert series(rope) == {str(i): ("0", i) for i in range(1, n + 1)}
