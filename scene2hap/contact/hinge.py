@@ -47,6 +47,14 @@ class HingedBodies:
         if body.hinge is not None:
             self._with_hinge_to.setdefault(body.hinge.to, set()).add(body.id)
 
+    def remove(self, body: Body) -> None:
+        """Remove a body that was added, before the next `update`."""
+        if body.hinge is not None:
+            others = self._with_hinge_to[body.hinge.to]
+            others.remove(body.id)
+            if not others:
+                del self._with_hinge_to[body.hinge.to]
+
     def are_chained(self, x: str, y: str) -> bool:
         """Return True if two bodies are of one chain."""
         first = self._first
@@ -54,7 +62,7 @@ class HingedBodies:
 
     def update(self, changed: Iterable[str]) -> list[str]:
         """Look again at bodies that were added, moved or removed. Returns the ids of those whose chain is another."""
-        if not self._with_hinge_to:
+        if not self._with_hinge_to and not self.on:
             return []
         affected = set(changed)
         affected.update(*(self._with_hinge_to.get(x, ()) for x in affected))
