@@ -29,7 +29,10 @@ def copies(scene: SceneSnapshot, graph: ContactGraph, chains: Mapping[str, Chain
     """
     kinds = {item.id: copy_key(item) for item in scene.objects}
     supports = _supports(scene, graph.contacts)
-    chained = {x: frozenset(kinds[each] for each in chain.ids) for x, chain in chains.items()}
+    chained = dict[str, frozenset[Hashable]]()
+    for x, chain in chains.items():
+        if x not in chained:
+            chained.update(dict.fromkeys(chain.ids, frozenset(kinds[each] for each in chain.ids)))
     first: dict[Hashable, str] = {}
     standing_for = {}
     for item in scene.objects:
