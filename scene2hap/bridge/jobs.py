@@ -154,7 +154,7 @@ class Jobs:
 
     def _remove_inputs(self, wanted: Mapping[str, Any]) -> None:
         scene = Path(wanted["scene"])
-        if scene.is_relative_to(self.folder):
+        if self._is_temporary(scene):
             scene.unlink(missing_ok=True)
         if wanted["pictures"] is not None:
             shutil.rmtree(wanted["pictures"], ignore_errors=True)
@@ -163,5 +163,8 @@ class Jobs:
         self._baked[job] = folder, answer
         while len(self._baked) > N_KEPT:
             forgotten, _ = self._baked.pop(next(iter(self._baked)))
-            if forgotten.is_relative_to(self.folder):
+            if self._is_temporary(forgotten):
                 shutil.rmtree(forgotten, ignore_errors=True)
+
+    def _is_temporary(self, path: Path) -> bool:
+        return self._temporary is not None and path.is_relative_to(self._temporary.name)

@@ -18,11 +18,7 @@ from scene2hap.scene.snapshot import SceneSnapshot
 
 @dataclass(frozen=True)
 class BundleContents:
-    """A baked scene: its objects, the inferred properties of each, and the loops of each source by state.
-
-    `overrides` are a person's corrections. `choices` give the reason for each chosen sound, as a table of its
-    candidates in text, by id and state. `made_with` are the common settings of all loops, None if unknown.
-    """
+    """The fields of a `HapticBundle`, which says what they are."""
 
     snapshot: SceneSnapshot
     scene_category: str

@@ -110,7 +110,7 @@ class ContactFinder:
 
     def _remove(self, x: str, found: dict[Pair, Junction | None], recheck: set[str]) -> None:
         """Remove a body with all its pairs."""
-        del self._bodies[x]
+        self._pairs.hinged.remove(self._bodies.pop(x))
         self._issuer.forget(x)
         for y in self._broad_phase.remove(x):
             self._drop_pair(x, y, found, recheck)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 
 from scene2hap.contact.body import Body, apart_by
 from scene2hap.contact.geometry.vectors import Triple
-from scene2hap.scene.hinges import HINGE_PLAY_M, firsts
+from scene2hap.scene.hinges import HINGE_PLAY_M, series
 
 
 def are_hinged(x: Body, y: Body) -> bool:
@@ -47,6 +47,14 @@ class HingedBodies:
         if body.hinge is not None:
             self._with_hinge_to.setdefault(body.hinge.to, set()).add(body.id)
 
+    def remove(self, body: Body) -> None:
+        """Remove a body that was added, before the next `update`."""
+        if body.hinge is not None:
+            others = self._with_hinge_to[body.hinge.to]
+            others.remove(body.id)
+            if not others:
+                del self._with_hinge_to[body.hinge.to]
+
     def are_chained(self, x: str, y: str) -> bool:
         """Return True if two bodies are of one chain."""
         first = self._first
@@ -54,7 +62,7 @@ class HingedBodies:
 
     def update(self, changed: Iterable[str]) -> list[str]:
         """Look again at bodies that were added, moved or removed. Returns the ids of those whose chain is another."""
-        if not self._with_hinge_to:
+        if not self._with_hinge_to and not self.on:
             return []
         affected = set(changed)
         affected.update(*(self._with_hinge_to.get(x, ()) for x in affected))
@@ -63,7 +71,7 @@ class HingedBodies:
             self._update(x)
         if self.on == before:
             return []
-        past, self._first = self._first, firsts(self.on)
+        past, self._first = self._first, {x: first for x, (first, _) in series(self.on).items()}
         ids = past.keys() | self._first.keys() | (before.keys() ^ self.on.keys())
         return sorted(x for x in ids if x in self._bodies and past.get(x) != self._first.get(x))
 

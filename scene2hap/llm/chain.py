@@ -171,7 +171,7 @@ class _Chain:
 
     async def infer(self, wanted: list[SceneObject], tell: Progress) -> dict[str, ObjectHaptics]:
         """Return the haptics of each wanted object, in order."""
-        standing_for = copies(self._scene, self._graph) if self._settings.share_copies else {}
+        standing_for = copies(self._scene, self._graph, self._chains) if self._settings.share_copies else {}
         groups: dict[tuple[str, bool], list[SceneObject]] = {}
         for item in wanted:
             # A wish for one object does not apply to its copies, so such an object does not share an answer.

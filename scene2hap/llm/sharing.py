@@ -8,7 +8,7 @@ from typing import Any
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.llm.quoting import clean
 from scene2hap.scene.copies import copy_key, name_words
-from scene2hap.scene.hinges import chains
+from scene2hap.scene.hinges import Chain
 from scene2hap.scene.objects import VERTICAL, Contact
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -18,16 +18,21 @@ _BELOW = 0.5
 """Least absolute cosine between the normal of a supporting contact and the vertical."""
 
 
-def copies(scene: SceneSnapshot, graph: ContactGraph) -> dict[str, str]:
+def copies(scene: SceneSnapshot, graph: ContactGraph, chains: Mapping[str, Chain]) -> dict[str, str]:
     """Return the representative of each object: the first in scene order with equal kind and equal support.
 
     Objects of one kind are copies (`scene.copies`). Supports are compared by kind. So six handles on six equal
     drawers have one representative, but a pan on the stove and a pan on the table have two. Of an object without a
     support, the kinds of all objects that touch it are compared. So are those of objects that hinges join.
+
+    Parameters: chains : of `scene.hinges`.
     """
     kinds = {item.id: copy_key(item) for item in scene.objects}
     supports = _supports(scene, graph.contacts)
-    chained = {x: frozenset(kinds[each] for each in chain.ids) for x, chain in chains(scene.objects).items()}
+    chained = dict[str, frozenset[Hashable]]()
+    for x, chain in chains.items():
+        if x not in chained:
+            chained.update(dict.fromkeys(chain.ids, frozenset(kinds[each] for each in chain.ids)))
     first: dict[Hashable, str] = {}
     standing_for = {}
     for item in scene.objects:

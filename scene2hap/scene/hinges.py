@@ -62,44 +62,39 @@ class Chain(NamedTuple):
 
 def chains(objects: Sequence[SceneObject]) -> dict[str, Chain]:
     """Return the chain of each object that is held by a hinge or holds another, by the object's id."""
-    ids = [item.id for item in objects]
-    on = {item.id: item.hinge.to for item in objects if item.hinge is not None}
-    first, members = firsts(on), dict[str, list[str]]()
-    for x in ids:
-        members.setdefault(first.get(x, x), []).append(x)
+    before = series({item.id: item.hinge.to for item in objects if item.hinge is not None})
+    members = dict[str, list[str]]()
+    for item in objects:
+        first, _ = before.get(item.id, (item.id, 0))
+        members.setdefault(first, []).append(item.id)
     found = dict[str, Chain]()
     for together in members.values():
         if len(together) > 1:
-            chain = Chain(tuple(together), max(_n_before(x, on) for x in together) + 1)
+            chain = Chain(tuple(together), max(before[x][1] for x in together if x in before) + 1)
             found.update(dict.fromkeys(together, chain))
     return found
 
 
-def firsts(on: Mapping[str, str]) -> dict[str, str]:
-    """Return the id of the first object of the chain of each held object, by its own id. Objects that hold each other
-    have the least id of their ring.
+def series(on: Mapping[str, str]) -> dict[str, tuple[str, int]]:
+    """Return of each held object, by its id, the id of the first object of its chain, and the number of objects before
+    it, each held on the one before. Objects that hold each other have the least id of their ring.
 
     Parameters: on : the id of the object that holds each held object.
     """
-    found: dict[str, str] = {}
+    found: dict[str, tuple[str, int]] = {}
     for x in on:
         passed: dict[str, None] = {}
         while x in on and x not in passed and x not in found:
             passed[x] = None
             x = on[x]
         way = list(passed)
-        first = min(way[way.index(x) :]) if x in passed else found.get(x, x)
-        found.update(dict.fromkeys(way, first))
+        if x in passed:
+            ring = way[way.index(x) :]
+            found.update(dict.fromkeys(ring, (min(ring), len(ring) - 1)))
+            way = way[: -len(ring)]
+        first, n = found.get(x, (x, 0))
+        found.update((held, (first, n + k)) for k, held in enumerate(reversed(way), 1))
     return found
-
-
-def _n_before(x: str, on: Mapping[str, str]) -> int:
-    """Return the number of objects on which an object is held, one on the other."""
-    passed = set[str]()
-    while x in on and x not in passed:
-        passed.add(x)
-        x = on[x]
-    return len(passed)
 
 
 def _from_box(item: SceneObject, point: NDArray[np.float64]) -> float:

@@ -18,15 +18,15 @@ from scene2hap.session.deadline import Deadline
 from scene2hap.session.worker_threads import start_worker
 
 N_OF_BOX = 12
-"""Triangles of a box. The worker leaves boxes out, whose contacts seldom need triangles: 1.5 ms each, and a level may
-hold thousands."""
+"""Triangles of a box. Contacts of boxes need triangles only while one is tilted or sinks into another. A level may hold
+thousands, which take 1.5 ms each, and frames beside a busy worker take twice as long. So only `wait` prepares boxes."""
 
 _ENDING = Event()
 
 
 class PreparedShapes:
-    """The shapes of a session's meshes, which a worker prepares if `in_background`, or else `wait`; without `is_wanted`
-    nothing is prepared."""
+    """The shapes of a session's meshes. If `in_background`, a worker prepares those of all but boxes; `wait` prepares
+    all that are left. Without `is_wanted` nothing is prepared."""
 
     def __init__(self, *, is_wanted: bool, in_background: bool) -> None:
         self._is_wanted, self._in_background = is_wanted, in_background

@@ -59,9 +59,9 @@ class Prompts:
 
         The objects of a chain are named before it, so that prompts of objects without hinges have no line for them.
         """
-        chain = f"\n{_CHAIN}: {as_data(facts['chain_names'])}" if "chain_names" in facts else ""
-        wish = f"\nAbove all, follow what the scene's author asks: {user_prompt}" if user_prompt else ""
         data = {name: as_data(fact) for name, fact in facts.items()}
+        chain = f"\n{_CHAIN}: {data['chain_names']}" if "chain_names" in data else ""
+        wish = f"\nAbove all, follow what the scene's author asks: {user_prompt}" if user_prompt else ""
         return f"{IS_DATA}\n\n{self.templates[component].format(**data, user_prompt=chain + wish).strip()}"
 
 

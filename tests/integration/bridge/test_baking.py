@@ -48,6 +48,17 @@ def test_a_scene_file_below_the_root(bridge: Bridge, root: Path, desk: HapticBun
         assert client.play(job=job)["layout"] == 1
 
 
+def test_a_bake_from_file_to_file_needs_no_temporary_folder(
+    bridge: Bridge, root: Path, desk: HapticBundle, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (root / "desk.json").write_text(desk.snapshot.to_json())
+    monkeypatch.setattr("tempfile.tempdir", str(root / "nowhere"))
+    with Client(bridge().url) as client:
+        job = client.bake(path="desk.json", save="made.bundle")
+        with pytest.raises(Refused, match="is not running"):
+            client.ask("cancel", job=job)
+
+
 def test_client_cannot_set_server_settings(bridge: Bridge, desk: HapticBundle) -> None:
     scene = json.loads(desk.snapshot.to_json())
     with Client(bridge().url) as client:

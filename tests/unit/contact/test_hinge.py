@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from scene2hap import Box, ContactGraph, Hinge, Pose, SceneObject, SceneSnapshot
+from scene2hap.contact.finder import ContactFinder
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.errors import SceneError
 
@@ -180,6 +181,19 @@ def test_objects_that_hang_on_each_other_are_a_chain_without_end() -> None:
     assert graph.patch("a", "b")[0].tolist() == [[0.1, 0.0, 0.0]]
     graph.update({"b": Pose((0.5, 0.0, 0.0))})
     assert not graph.contacts
+
+
+def test_hinged_objects_that_come_and_go_leave_nothing() -> None:
+    cabinet, door, floor = cabinet_and_door()
+    graph = ContactGraph(SceneSnapshot.build([cabinet, floor]))
+    for number in range(3):
+        graph.update({}, added=[replace(door, id=f"door {number}")])
+        assert graph.neighbours("cabinet") == (f"door {number}", "floor")
+        graph.update({}, removed=[f"door {number}"])
+    assert isinstance(graph._finder, ContactFinder)
+    hinged = graph._finder._pairs.hinged
+    assert not hinged._with_hinge_to
+    assert not hinged.on
 
 
 def test_bad_hinges_are_refused() -> None:

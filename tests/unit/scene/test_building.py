@@ -58,7 +58,7 @@ def test_copies_share_a_key_and_an_analysis() -> None:
     assert len({item.instance_key for item in scene.objects[:5]}) == 1
     assert scene.object("bench").instance_key == "mine"
     assert scene.object("stool").instance_key != SceneSnapshot.build(ROOM).object("mug").instance_key
-    shared = copies(scene, ContactGraph(scene))
+    shared = copies(scene, ContactGraph(scene), {})
     assert [shared[item.id] for item in scene.objects] == [*["chair 0"] * 4, "stool", "bench"]
 
 
