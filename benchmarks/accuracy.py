@@ -28,10 +28,11 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 from plate_fe import fe_receptance
 from scene2hap import ExponentialPlate, InfinitePlate, MassSpringDamper, ModalPlate, Plate, materials, plate_modes
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation import infinite_plate, modal_body, modes
+from scene2hap.propagation import infinite_plate
 from scene2hap.propagation.auto import AutoFidelity
 from scene2hap.propagation.domain import ThinPlateWarning
 from scene2hap.propagation.lattice import lattice, lattice_body, lattice_modes
+from scene2hap.propagation.modal import modal_body, modes
 
 SEED = 7
 N_POINTS = 32

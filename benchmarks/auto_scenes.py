@@ -39,7 +39,7 @@ from scene2hap import (
 from scene2hap.propagation.auto import AutoField
 from scene2hap.propagation.auto_rungs import FLOOR_DB
 from scene2hap.propagation.bands.sampling import AROUND
-from scene2hap.propagation.in_plane import in_plane_modes
+from scene2hap.propagation.modal.in_plane import in_plane_modes
 
 BANDS = {"third octaves": Bands.third_octaves(10, 1000), "around": AROUND}
 

@@ -32,9 +32,10 @@ from scene2hap import (
     materials,
     plate_modes,
 )
-from scene2hap.propagation import infinite_plate, modal_body, modes
+from scene2hap.propagation import infinite_plate
 from scene2hap.propagation.coupled import rigid
 from scene2hap.propagation.domain import ThinPlateWarning
+from scene2hap.propagation.modal import modal_body, modes
 from scene2hap.propagation.protocol import ExpectantField
 from scene2hap.scene.pose import Pose
 

@@ -39,7 +39,7 @@ _NAMES_IN = {
     "scene2hap.propagation.modal_plate": ("ModalPlate",),
     "scene2hap.propagation.auto": ("AutoFidelity",),
     "scene2hap.propagation.coupled.hand": ("Hand",),
-    "scene2hap.propagation.modes": ("PlateModes", "plate_modes"),
+    "scene2hap.propagation.modal.modes": ("PlateModes", "plate_modes"),
     "scene2hap.propagation.mass_spring_damper": ("MassSpringDamper",),
     "scene2hap.propagation.controls": ("FullPropagation", "NoPropagation"),
     "scene2hap.audio.clip": ("AudioClip", "Credit"),
@@ -223,8 +223,8 @@ if TYPE_CHECKING:
     from scene2hap.propagation.exponential_plate import ExponentialPlate as ExponentialPlate
     from scene2hap.propagation.infinite_plate import InfinitePlate as InfinitePlate
     from scene2hap.propagation.mass_spring_damper import MassSpringDamper as MassSpringDamper
+    from scene2hap.propagation.modal.modes import PlateModes as PlateModes, plate_modes as plate_modes
     from scene2hap.propagation.modal_plate import ModalPlate as ModalPlate
-    from scene2hap.propagation.modes import PlateModes as PlateModes, plate_modes as plate_modes
     from scene2hap.propagation.plate import Plate as Plate, RigidBody as RigidBody
     from scene2hap.propagation.protocol import (
         ContactNetwork as ContactNetwork,

@@ -57,11 +57,11 @@ from scene2hap import (
     Plate,
 )
 from scene2hap.errors import Scene2HapError
-from scene2hap.propagation import modal_body, modes
 from scene2hap.propagation.domain import SlowPlateWarning, ThinPlateWarning
 from scene2hap.propagation.lattice import bending_lattice, lattice_body, lattice_modes
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
-from scene2hap.propagation.modes import first_bending_hz, n_rigid_motions
+from scene2hap.propagation.modal import modal_body, modes
+from scene2hap.propagation.modal.modes import first_bending_hz, n_rigid_motions
 
 MODELS: dict[str, Any] = {
     "infinite_plate": InfinitePlate(outside_domain="ignore"),

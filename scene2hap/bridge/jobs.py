@@ -167,4 +167,4 @@ class Jobs:
                 shutil.rmtree(forgotten, ignore_errors=True)
 
     def _is_temporary(self, path: Path) -> bool:
-        return self._temporary is not None and path.is_relative_to(self._temporary.name)
+        return self._temporary is not None and path.is_relative_to(self._temporary.path)

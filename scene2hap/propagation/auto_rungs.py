@@ -26,8 +26,8 @@ from scene2hap.propagation.coupled.rigid import RigidMotion
 from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.lattice.lattice_modes import lowest_frequencies_hz
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
-from scene2hap.propagation.modal_body import modal_body
-from scene2hap.propagation.modes import FINE, Fineness, beam_hz, first_bending_hz
+from scene2hap.propagation.modal.modal_body import modal_body
+from scene2hap.propagation.modal.modes import FINE, Fineness, beam_hz, first_bending_hz
 from scene2hap.propagation.plate import Plate
 
 FLOOR_DB = -40.0

@@ -42,7 +42,7 @@ from scene2hap.propagation.lattice.lattice_modes import (
     n_modes_up_to,
 )
 from scene2hap.propagation.lattice.stepping import ExactStepper, NewmarkStepper, State, Stepper
-from scene2hap.propagation.modes import points_on
+from scene2hap.propagation.modal.modes import points_on
 from scene2hap.propagation.physical_model import PhysicalModel
 from scene2hap.propagation.plate import Plate
 from scene2hap.scene.scene_warning import warn_of

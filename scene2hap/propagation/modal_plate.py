@@ -25,12 +25,12 @@ from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import ElasticBody
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.domain import OutsideDomain, floored_loss, off_zero
-from scene2hap.propagation.modal_body import modal_body
-from scene2hap.propagation.modes import MARGIN, plate_modes
-from scene2hap.propagation.near_field import NearField
+from scene2hap.propagation.modal.modal_body import modal_body
+from scene2hap.propagation.modal.modes import MARGIN, plate_modes
+from scene2hap.propagation.modal.near_field import NearField
+from scene2hap.propagation.modal.ritz import products
 from scene2hap.propagation.physical_model import PhysicalModel
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.ritz import products
 
 
 @clear_construction

@@ -9,7 +9,7 @@ import pytest
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, ModalPlate, Plate, Pose, materials
 from scene2hap.errors import ConfigError, ModelDomainError
-from scene2hap.propagation import MODELS, modes
+from scene2hap.propagation import MODELS
 from scene2hap.propagation.auto import AutoFidelity
 from scene2hap.propagation.auto_level import peak_level_db
 from scene2hap.propagation.auto_rungs import FLOOR_DB, RUNGS, Situation
@@ -17,6 +17,7 @@ from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import Joint
 from scene2hap.propagation.coupled.substructuring import assemble
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
+from scene2hap.propagation.modal import modes
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 

@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from plate_fe import fe_receptance
 from scene2hap import InfinitePlate, Material, ModalPlate, Plate, materials, plate_modes
-from scene2hap.propagation import modes as modes_module
-from scene2hap.propagation.modal_body import ModalBody
-from scene2hap.propagation.modes import FINE
-from scene2hap.propagation.near_field import beyond_cutoff, beyond_cutoff_of_square, table
+from scene2hap.propagation.modal import modes as modes_module
+from scene2hap.propagation.modal.modal_body import ModalBody
+from scene2hap.propagation.modal.modes import FINE
+from scene2hap.propagation.modal.near_field import beyond_cutoff, beyond_cutoff_of_square, table
 
 MATERIAL = Material("test", 2500.0, 70e9, 0.22, loss_factor=0.02)
 FURNITURE = {
@@ -60,7 +60,7 @@ def test_a_larger_basis_agrees(name: str, where: tuple[float, float], monkeypatc
     found = ModalPlate().plate_receptance(plate, drive, points, FREQUENCIES_HZ)
     terms = modes_module._n_terms
     monkeypatch.setattr(modes_module, "_n_terms", lambda *args: 2 * terms(*args))
-    monkeypatch.setattr("scene2hap.propagation.modes.modes_up_to", modes_module.modes_up_to.__wrapped__)
+    monkeypatch.setattr("scene2hap.propagation.modal.modes.modes_up_to", modes_module.modes_up_to.__wrapped__)
     finer = ModalPlate().plate_receptance(plate, drive, points, FREQUENCIES_HZ)
     apart = db_apart(found, finer)
     assert np.median(apart) < 0.1

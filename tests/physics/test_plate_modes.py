@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from plate_fe import fe_frequencies_hz
 from scene2hap import Material, Plate, plate_modes
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation import modes as modes_module
-from scene2hap.propagation.plate_terms import PlateTerms
+from scene2hap.propagation.modal import modes as modes_module
+from scene2hap.propagation.modal.plate_terms import PlateTerms
 
 MATERIAL = Material("test", 2500.0, 70e9, 0.3, loss_factor=0.02)
 

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from scene2hap.propagation.bands.sampling import Sampling
 from scene2hap.propagation.coupled.coupling import ElasticBody, JointForces
 from scene2hap.propagation.coupled.hand import Hand
-from scene2hap.propagation.inclined_body import felt_ports
+from scene2hap.propagation.modal.inclined_body import felt_ports
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]

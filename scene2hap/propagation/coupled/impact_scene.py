@@ -27,7 +27,7 @@ from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.coupled.coupling import ElasticBody
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.hand_load import loaded, stiffness_of
-from scene2hap.propagation.inclined_body import InclinedBody, felt_ports
+from scene2hap.propagation.modal.inclined_body import InclinedBody, felt_ports
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -27,7 +27,7 @@ from scene2hap.propagation.coupled.coupling import ElasticBody, Ends, Joint
 from scene2hap.propagation.coupled.hand_load import HandLoad, LoadedGains
 from scene2hap.propagation.coupled.object_response import Gains, Magnitudes
 from scene2hap.propagation.coupled.response_basis import HasResponseBasis
-from scene2hap.propagation.inclined_body import FeltInSpace, InclinedBody
+from scene2hap.propagation.modal.inclined_body import FeltInSpace, InclinedBody
 
 Complex = NDArray[np.complex128]
 

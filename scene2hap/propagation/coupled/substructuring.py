@@ -37,7 +37,7 @@ from scene2hap.propagation.coupled.object_response import ObjectResponse
 from scene2hap.propagation.coupled.rigid import RigidMotion, is_compact
 from scene2hap.propagation.coupled.solved_object import SolvedObject
 from scene2hap.propagation.domain import OutsideDomain, check_thin
-from scene2hap.propagation.inclined_body import inclined, inclined_box
+from scene2hap.propagation.modal.inclined_body import inclined, inclined_box
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import object_points
 from scene2hap.propagation.protocol import Carrier, ContactNetwork, CoupledModel, Excitation, require_input

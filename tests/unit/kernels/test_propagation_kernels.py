@@ -12,7 +12,7 @@ from kernels import both, seeds, steady
 from scene2hap.contact.junction import Junction
 from scene2hap.propagation.coupled.elimination import Element, dense
 from scene2hap.propagation.coupled.elimination_order import pattern_of
-from scene2hap.propagation.near_field import table
+from scene2hap.propagation.modal.near_field import table
 from scene2hap.propagation.paths.prepared_paths import Network, Sides
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
@@ -138,7 +138,7 @@ def test_near_field_kernels_agree(seed: int) -> None:
     drives, cut2 = rng.uniform(0, [1.0, 2 / 3], (4, 2)), rng.uniform(10, 1e4, 4)
     numbers = (drives, rng.normal(size=4), rng.normal(size=4), cut2, (2.0, 3.0, 30.0, 20.0), table())
     points = np.concatenate([rng.uniform(0, [1.0, 2 / 3], (5, 2)), [[0.0, 0.0], drives[0]]])
-    plain, twin = (kind(*numbers) for kind in both("propagation.near_field.Dimples"))
+    plain, twin = (kind(*numbers) for kind in both("propagation.modal.near_field.Dimples"))
     k2 = rng.uniform(0.1, 5.0, 4)
     told, compiled = ((*dimples.at(points), dimples.near(points, k2)) for dimples in (plain, twin))
     for one, other in zip(told, compiled, strict=True):
@@ -150,7 +150,7 @@ def test_near_field_kernels_agree(seed: int) -> None:
 def test_kernels_find_the_same_products_of_cosines(seed: int, n: int) -> None:
     points = np.random.default_rng(seed).uniform(-0.1, 1.1, (n, 2))
     found = [np.empty((n, 20)), np.empty((n, 20))]
-    for fill, one in zip(both("propagation.plate_terms.fill_cosines"), found, strict=True):
+    for fill, one in zip(both("propagation.modal.plate_terms.fill_cosines"), found, strict=True):
         fill(one, points, 2.0, 2.0, 5, 4)
     np.testing.assert_allclose(found[1], found[0], atol=1e-13)
 
@@ -164,8 +164,8 @@ def test_kernels_contract_forces_alike(seed: int, n: int, dtype: type) -> None:
     near = (drives, rng.normal(size=4), rng.normal(size=4), cut2, (2.0, 2.0, 30.0, 20.0))
     smooth, beyond = (rng.normal(size=(rows, n_columns)).astype(dtype) for rows in (20, 4 * n_forces))
     points = rng.uniform(0, 1, (n, 2))
-    dimples = both("propagation.near_field.Dimples")
-    contracted = both("propagation.plate_terms.ContractedShapes")
+    dimples = both("propagation.modal.near_field.Dimples")
+    contracted = both("propagation.modal.plate_terms.ContractedShapes")
     told, compiled = (
         kind((2.0, 2.0, 5, 4), smooth, own(*near, table()), k2, beyond)(points)
         for kind, own in zip(contracted, dimples, strict=True)

@@ -30,8 +30,8 @@ from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.rigid import RigidMotion, is_compact
 from scene2hap.propagation.coupled.split_body import SplitBody
 from scene2hap.propagation.infinite_plate import InfiniteBody
-from scene2hap.propagation.modal_body import ModalBody
-from scene2hap.propagation.modes import first_bending_hz
+from scene2hap.propagation.modal.modal_body import ModalBody
+from scene2hap.propagation.modal.modes import first_bending_hz
 
 OAK, STEEL, CERAMIC = (materials.lookup(name) for name in ("oak", "steel", "ceramic"))
 

@@ -9,7 +9,6 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, Material, ModalPlate, Plate, Pose, materials
-from scene2hap.propagation import modal_body
 from scene2hap.propagation.bands.band_shapes import CLOSE, band_gains
 from scene2hap.propagation.bands.octaves import OctaveSums
 from scene2hap.propagation.bands.sampling import Sampling
@@ -18,7 +17,8 @@ from scene2hap.propagation.coupled.rigid import RigidMotion
 from scene2hap.propagation.coupled.solved_object import contracted, pieces
 from scene2hap.propagation.coupled.split_body import SplitBody
 from scene2hap.propagation.lattice.lattice_body import lattice_body
-from scene2hap.propagation.modal_body import ModalBody
+from scene2hap.propagation.modal import modal_body
+from scene2hap.propagation.modal.modal_body import ModalBody
 from scene2hap.propagation.protocol import ExpectantField
 
 STEEL = Plate(0.65, 0.42, 0.002, materials.lookup("steel"))

@@ -15,9 +15,9 @@ from scene2hap.propagation.coupled.many_joints import among, has_many, rows_at_o
 from scene2hap.propagation.coupled.response_basis import AnyFloat
 from scene2hap.propagation.coupled.split_body import SplitBody
 from scene2hap.propagation.infinite_plate import InfiniteBody
-from scene2hap.propagation.modes import FINE, MARGIN, QUICK_BLOCK, Fineness, largest_block
+from scene2hap.propagation.modal.modes import FINE, MARGIN, QUICK_BLOCK, Fineness, largest_block
+from scene2hap.propagation.modal.plate_terms import N_NODES, ContractedShapes, ForcedPlate, PlateTerms
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.plate_terms import N_NODES, ContractedShapes, ForcedPlate, PlateTerms
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -35,7 +35,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
-from scene2hap.propagation.modes import PlateModes
+from scene2hap.propagation.modal.modes import PlateModes
 from scene2hap.propagation.plate import Plate
 
 Floats = NDArray[np.float64]

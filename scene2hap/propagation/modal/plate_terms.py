@@ -25,10 +25,10 @@ from numpy.typing import NDArray
 from scene2hap.compiled import compiled
 from scene2hap.propagation.bands.octaves import OctaveSums
 from scene2hap.propagation.coupled.response_basis import AnyFloat, real_times
-from scene2hap.propagation.modes import FINE, MARGIN, Fineness, PlateModes, modes_up_to
-from scene2hap.propagation.near_field import Dimples, NearField
+from scene2hap.propagation.modal.modes import FINE, MARGIN, Fineness, PlateModes, modes_up_to
+from scene2hap.propagation.modal.near_field import Dimples, NearField
+from scene2hap.propagation.modal.ritz import axis_basis, products
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.ritz import axis_basis, products
 
 N_NODES = 4
 

@@ -28,9 +28,9 @@ from scene2hap.counted import counted
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.cached_while_used import cached_while_used
 from scene2hap.propagation.domain import as_frequencies, warn_if_slow
+from scene2hap.propagation.modal.ritz import AxisBasis, axis_bases, products, stiffness
 from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate, require_plate
 from scene2hap.propagation.points import as_points
-from scene2hap.propagation.ritz import AxisBasis, axis_bases, products, stiffness
 from scene2hap.scene.geometry import frozen
 
 Number = TypeVar("Number", np.float64, np.complex128)

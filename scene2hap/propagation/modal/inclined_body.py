@@ -25,7 +25,7 @@ from scene2hap.propagation.coupled.coupling import ElasticBody
 from scene2hap.propagation.coupled.legged_body import LeggedBody
 from scene2hap.propagation.coupled.response_basis import AnyFloat, HasResponseBasis, ResponseBasis, real_times
 from scene2hap.propagation.coupled.rigid import RigidMotion
-from scene2hap.propagation.in_plane import InPlaneModes, in_plane_modes
+from scene2hap.propagation.modal.in_plane import InPlaneModes, in_plane_modes
 from scene2hap.propagation.plate import Plate
 
 _ASIDE = 1e-6  # Component along the normal up to which a direction does not bend the plate.

@@ -4,7 +4,7 @@ import numpy as np
 
 from libc.math cimport acos, cos, fmax, fmin
 
-from scene2hap.propagation._near_field cimport Dimples, near_of
+from scene2hap.propagation.modal._near_field cimport Dimples, near_of
 from scene2hap.propagation._rows cimport add_rows, real
 
 
