@@ -55,6 +55,10 @@ def bomb() -> bytes:
     return first + 1023 * other  # after a full flush equal data is packed into equal bytes
 
 
+def test_only_a_status_of_success_is_ok() -> None:
+    assert [status for status in (199, 200, 204, 299, 300) if WebReply("", status, b"").ok] == [200, 204, 299]
+
+
 def test_a_gzip_bomb_is_refused_before_it_unpacks() -> None:
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     body = bomb()

@@ -219,6 +219,10 @@ def test_audible_loop_replaces_a_missing_source_clip(bundle: HapticBundle) -> No
     assert remade(again)[1] == {}
 
 
+def test_sources_stay_clear_of_a_locked_loop(bundle: HapticBundle) -> None:
+    assert remade(bundle.override("microwave_oven", locked=True))[1] == {}
+
+
 def without_fingerprints(folder: Path) -> Path:
     """Rewrite a folder like those of earlier versions, without fingerprints and settings."""
     rows = json.loads((folder / "loops.json").read_text())
@@ -239,6 +243,7 @@ def test_bundle_without_fingerprints_is_kept_until_a_setting_changes(bundle: Hap
         again, told = remade(old)
     assert told == {}
     assert again.loops == old.loops
+    assert again.actuator is None  # nothing says with what its loops were made
     again, told = remade(old, {"actuator": "lra"})
     assert set(told) == set(NAMES)
     assert {why for states in told.values() for why in states.values()} == {("no fingerprint",)}

@@ -80,6 +80,11 @@ def test_joined_children_that_are_only_numbered_are_one_object() -> None:
     assert objects(group("table", mesh("p0"), mesh("p1", at=0.5))) == {"table": ["p0", "p1"]}
 
 
+def test_parts_of_copies_are_in_one_order_whatever_order_the_file_has() -> None:
+    seat, leg = mesh("seat", mesh("cube")), mesh("leg", mesh("cube"), at=0.5)
+    assert objects(group("chair", seat, leg)) == objects(group("chair", leg, seat))
+
+
 def test_children_that_stand_apart_are_separate_objects_whatever_their_names() -> None:
     assert list(objects(group("table", mesh("Cube"), mesh("Cube.001", at=5.0)))) == ["Cube", "Cube.001"]
 
