@@ -27,7 +27,10 @@ SPARSE = {
 }
 # Seven positions, of which the eighth is replaced: the ninth corner of the cube's faces is vertex 7.
 ONE_TOO_FAR = {
-    **{"bufferView": 0, "componentType": 5126, "count": 7, "type": "VEC3"},
+    "bufferView": 0,
+    "componentType": 5126,
+    "count": 7,
+    "type": "VEC3",
     "sparse": {**SPARSE, "indices": {"bufferView": 1, "componentType": 5123, "byteOffset": 16}},
 }
 
