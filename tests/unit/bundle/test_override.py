@@ -63,6 +63,8 @@ def test_overrides_accumulate(bundle: HapticBundle) -> None:
 def test_a_number_is_of_all_states_that_have_none_of_their_own() -> None:
     wish = Override(pitch_hz={"*": 120.0, "high": 90.0})
     assert [wish.pitch_of("on"), wish.pitch_of("high"), Override().pitch_of("on")] == [120.0, 90.0, None]
+    assert wish.changed({"pitch_hz": {"low": 60.0}}).pitch_hz == {"*": 120.0, "high": 90.0, "low": 60.0}
+    assert wish.changed({"pitch_hz": 150.0}).pitch_hz == {"*": 150.0}
 
 
 def test_corrections_are_kept_in_the_folder(bundle: HapticBundle, tmp_path: Path) -> None:

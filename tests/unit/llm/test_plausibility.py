@@ -83,6 +83,21 @@ def test_repair_request_states_the_bound_and_second_failure_keeps_the_answer() -
     assert "2610 to 23600 kg/m3" in inner.requests[1].prompt
 
 
+@pytest.mark.parametrize(
+    ("constant", "low", "high"),
+    # The table has for steel: 7820 to 7860 kg/m3, 190 to 210 GPa, 0.27 to 0.32, and a loss factor of up to 0.001.
+    [
+        ("density_kg_m3", 7820 / 3, 7860 * 3),
+        ("youngs_modulus_gpa", 190 / 10, 210 * 10),
+        ("poisson_ratio", 0.27 - 0.2, 0.32 + 0.2),
+        ("damping_ratio", 0.0, 0.001 / 2 * 100),
+    ],
+)
+def test_constants_may_be_some_way_outside_the_published_range(constant: str, low: float, high: float) -> None:
+    assert [constants("steel", {constant: value}) for value in (low + 1e-6, high - 1e-6)] == [{}, {}]
+    assert all(constants("steel", {constant: value}) for value in (low - 1e-6, high + 1e-6))
+
+
 @pytest.mark.parametrize("edges", [(180.0, 70.0, 5.5), (1.8, 0.7, 0.0), (1.8, 0.7, 2.0), (0.2, 0.7, 0.05), (0, 0, 0)])
 def test_sizes_far_from_measured_sizes_are_reported(edges: tuple[float, float, float]) -> None:
     assert "but it was measured as" in told_of_size(*edges)
@@ -91,6 +106,16 @@ def test_sizes_far_from_measured_sizes_are_reported(edges: tuple[float, float, f
 @pytest.mark.parametrize("edges", [(1.8, 0.7, 0.05), (0.7, 1.8, 0.02), (2.0, 0.8, 0.001), (1.2, 0.6, 0.1)])
 def test_sizes_near_the_measured_ones_pass(edges: tuple[float, float, float]) -> None:
     assert told_of_size(*edges) == ""
+
+
+def test_length_and_width_may_be_exchanged() -> None:
+    assert told_of_size(0.1, 2.0, 0.02, length_m=2.0, width_m=0.1, thickness_m=0.02) == ""
+
+
+def test_no_plate_is_thicker_than_a_third_of_its_width() -> None:
+    plank = {"length_m": 2.0, "width_m": 0.12, "thickness_m": 0.0}
+    assert told_of_size(2.0, 0.12, 0.039, **plank) == ""
+    assert "give 2e-05 to 0.04 m" in told_of_size(2.0, 0.12, 0.041, **plank)
 
 
 def test_floor_without_thickness_accepts_only_plausible_thickness() -> None:
