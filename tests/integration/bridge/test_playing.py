@@ -448,6 +448,8 @@ def test_the_server_s_sink_falls_silent_when_its_player_is_killed(bridge: Bridge
     sink = ClockedSink()
     server = bridge(sink=sink)
     with Client(server.url) as client, Client(server.url) as other:
+        with pytest.raises(Refused):
+            client.play(bundle="desk.bundle", moving=["no such object"])  # it leaves the sink to others
         assert client.play(bundle="desk.bundle", moving=[])["sink"] == "ClockedSink"
         with pytest.raises(Refused, match="another session plays on the sink"):
             other.play(bundle="desk.bundle")

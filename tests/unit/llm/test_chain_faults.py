@@ -20,6 +20,7 @@ from scene2hap import (
     materials,
 )
 from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, ReplayMiss
+from scene2hap.llm.backends.chat import UnusableAnswer
 from scripted_backend import SCENE, Scripted, run
 
 
@@ -71,6 +72,15 @@ def test_bad_answer_affects_only_its_object() -> None:
     assert list(found.report.errors) == ["cup"]
 
 
+def test_an_unusable_answer_that_was_billed_is_in_the_account() -> None:
+    def change(request: LLMRequest, answer: dict[str, Any]) -> dict[str, Any]:
+        if request.subject == "cup":
+            raise UnusableAnswer("cut", model="m", usage={"prompt_tokens": 9})
+        return answer
+
+    assert run(Scripted(object_analyzer=change)).report.tokens == {"m": {"prompt_tokens": 9}}
+
+
 def test_failing_describer_keeps_the_state() -> None:
     found = run(Scripted(vibration_describer=lambda request, answer: {**answer, "keywords": "phone vibrating"}))
     state = found.objects["phone"].states[0]
@@ -105,6 +115,14 @@ def test_error_common_to_all_calls_ends_the_run_after_running_calls(refusal: Exc
         run(backend, {"concurrency": 2})
     assert backend.answered == len(backend.asked)  # running calls were completed
     assert not [request for request in backend.asked if request.component == "vibration_describer"]
+
+
+def test_such_an_error_at_the_materials_which_are_asked_for_last_is_raised() -> None:
+    def refuse(request: LLMRequest, answer: dict[str, Any]) -> dict[str, Any]:
+        raise BudgetExceeded("no money left")
+
+    with pytest.raises(BudgetExceeded, match="no money left"):
+        run(Scripted(material_estimator=refuse), {"inference": "lazy"})
 
 
 @pytest.mark.parametrize("wrapper", [CacheBackend, RecordingBackend])

@@ -19,6 +19,7 @@ from scripted_backend import SCENE
     ("model", "size_px", "detail", "tokens"),
     [
         ("gpt-4o", 1024, "high", 765),  # OpenAI's example: 85 + 4 * 170
+        ("gpt-4o", 2048, "high", 765),  # it is scaled down to 768 px first
         ("gpt-4o", 512, "high", 85 + 170),
         ("gpt-4o-2024-08-06", 4096, "low", 85),  # OpenAI's second example
         ("gpt-4o-mini", 512, "high", 2833 + 5667),

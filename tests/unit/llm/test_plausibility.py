@@ -147,6 +147,11 @@ def test_implausible_size_is_replaced_by_the_measured_size_and_reported() -> Non
     assert found.report.as_json()["doubts"]["table"] == list(told)
 
 
+def test_length_and_width_are_replaced_together() -> None:
+    found = sized(estimated_length_m=180.0, estimated_width_m=0.9, estimated_thickness_m=0.03)
+    assert found.objects["table"].estimated_size_m == (1.6, 0.8, 0.03)
+
+
 def test_implausible_thickness_alone_is_replaced() -> None:
     found = sized(estimated_length_m=1.5, estimated_thickness_m=0.0)
     assert found.objects["table"].estimated_size_m == (1.5, 0.8, 0.02)
