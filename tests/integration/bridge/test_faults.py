@@ -64,6 +64,7 @@ def test_the_first_message_is_a_hello(bridge: Bridge) -> None:
     assert closing_of(url, b"S2HB")[0] == 4000
     assert closing_of(url, "no json")[0] == 4000
     assert closing_of(url, hello(client="x" * 10_000))[0] == 4000
+    assert "at most" in closing_of(url, hello() + " " * 10_000)[1]  # before anything of it is read
     code, _, said = closing_of(url, hello(colour="red"))
     assert code == 4000
     assert "no field 'colour'" in said

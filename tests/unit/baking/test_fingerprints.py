@@ -167,6 +167,7 @@ def test_sound_sources_are_queried_only_when_given(bundle: HapticBundle) -> None
     again, told = remade(bundle, {"audio": source})
     assert source.n_asked == len(NAMES) == len(told)
     assert remade(again)[1] == {}
+    assert "sound" in remade(again, objects=["desk_fan"])[1]["desk_fan"]["on"]
     assert {loop.audible.credit.title for states in again.loops.values() for loop in states.values()} == {"mine"}
     assert remade(again, {"audio": source})[1] == {}
     assert source.n_asked == len(NAMES)

@@ -23,6 +23,8 @@ from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, Repl
 from scene2hap.llm.backends.chat import UnusableAnswer
 from scripted_backend import SCENE, Scripted, run
 
+STATE = {"name": "on", "intensity": 0.5, "needs_contact": None}
+
 
 def test_unknown_material_leaves_other_answers_valid() -> None:
     backend = Scripted(
@@ -171,6 +173,7 @@ def test_lost_connection_affects_only_the_running_request() -> None:
             r"'I think.*Invalid JSON.*must be JSON of",
         ),
         (lambda request, answer: LLMReply(json.dumps(answer)[:40], "scripted", "length"), "ended by 'length'"),
+        (lambda request, answer: {**answer, "states": [STATE, {**STATE, "name": " On"}]}, "states .* repeat a name"),
     ],
 )
 def test_error_describes_an_invalid_answer(change: object, sentence: str) -> None:
@@ -209,6 +212,11 @@ def test_a_start_of_minutes_counts_as_the_longest_that_can_be_felt() -> None:
     state = found.objects["phone"].states[0]
     assert (state.start_up_s, state.wind_down_s, state.keywords) == (30.0, 4.0, "phone buzzing")
     assert not found.report.errors
+
+
+def test_a_turn_on_without_a_turn_off_is_no_description() -> None:
+    found = run(Scripted(vibration_describer=lambda request, answer: {**answer, "on_s": 4.0}))
+    assert "on_s and off_s belong together" in found.report.errors["phone, state ringing"]
 
 
 def test_a_state_in_which_nothing_moves_is_left_out() -> None:

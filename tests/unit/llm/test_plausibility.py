@@ -160,10 +160,11 @@ def test_implausible_thickness_alone_is_replaced() -> None:
 def test_report_lists_contact_needs_that_no_object_meets() -> None:
     def change(asked: LLMRequest, answer: dict[str, Any]) -> dict[str, Any]:
         states = [{"name": "ringing", "intensity": 0.5, "needs_contact": "stove"}]
-        return {**answer, "states": states} if asked.subject == "phone" else answer
+        return {**answer, "states": states, "estimated_length_m": 9.0} if asked.subject == "phone" else answer
 
     found = asyncio.run(infer_scene(SCENE, Scripted(object_analyzer=change)))
-    assert "needs contact with 'stove'" in found.report.doubts["phone"][0]
+    assert found.report.doubts["phone"][0].startswith("length: 9 m")
+    assert "needs contact with 'stove'" in found.report.doubts["phone"][-1]
     assert found.objects["phone"].states[0].needs_contact == "stove"
     assert "stove" in found.objects["phone"].reasons["contact"]
 
