@@ -112,6 +112,12 @@ def test_length_and_width_may_be_exchanged() -> None:
     assert told_of_size(0.1, 2.0, 0.02, length_m=2.0, width_m=0.1, thickness_m=0.02) == ""
 
 
+def test_an_edge_that_was_measured_as_nothing_has_the_upper_bound_of_the_other() -> None:
+    sheet_on_edge = {"length_m": 1.0, "width_m": 0.0, "thickness_m": 0.0}
+    assert told_of_size(2.9, 2.9, 2e-5, **sheet_on_edge) == ""
+    assert "width_m: 3.1 m, but it was measured as 0 m" in told_of_size(3.1, 3.1, 2e-5, **sheet_on_edge)
+
+
 def test_no_plate_is_thicker_than_a_third_of_its_width() -> None:
     plank = {"length_m": 2.0, "width_m": 0.12, "thickness_m": 0.0}
     assert told_of_size(2.0, 0.12, 0.039, **plank) == ""
