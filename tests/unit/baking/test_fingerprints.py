@@ -11,11 +11,13 @@ import pytest
 
 from scene2hap import AudioClip, Credit, HapticBundle, SceneSnapshot, VibrationDescription, bake, rebake
 from scene2hap.audio.actuators import ACTUATORS
+from scene2hap.audio.felt_loop import Plan
 from scene2hap.audio.levels import felt_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.tactile.adaptive import Adaptive
 from scene2hap.audio.tactile.stages import StageStream
+from scene2hap.baking.fingerprint import made_by
 from scene2hap.errors import BundleError, ConfigError
 from scenes import box, scene, tone_loop
 
@@ -222,6 +224,15 @@ def test_audible_loop_replaces_a_missing_source_clip(bundle: HapticBundle) -> No
 
 def test_sources_stay_clear_of_a_locked_loop(bundle: HapticBundle) -> None:
     assert remade(bundle.override("microwave_oven", locked=True))[1] == {}
+
+
+def test_only_a_loop_without_a_target_depends_on_its_neighbours() -> None:
+    def plan_name(target_hz: float | None, neighbour_hz: float) -> str:
+        context = ConversionContext(neighbours_hz=(neighbour_hz,), target_hz=target_hz)
+        return made_by(own_tone(), "", Plan(context, 0.0))["plan"]
+
+    assert plan_name(None, 100.0) != plan_name(None, 101.0)
+    assert plan_name(80.0, 100.0) == plan_name(80.0, 101.0)
 
 
 def without_fingerprints(folder: Path) -> Path:
