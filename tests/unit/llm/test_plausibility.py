@@ -158,6 +158,13 @@ def test_length_and_width_are_replaced_together() -> None:
     assert found.objects["table"].estimated_size_m == (1.6, 0.8, 0.03)
 
 
+def test_a_mass_is_at_most_that_of_the_solid_box_and_its_doubt_stands_beside_others() -> None:
+    found = sized(estimated_mass_kg=100.0).objects["table"]
+    assert found.mass_kg == pytest.approx(1.6 * 0.8 * 0.02 * 700.0)  # the oak of the scripted answers
+    doubts = sized(estimated_mass_kg=1e6, estimated_length_m=180.0).report.doubts["table"]
+    assert [doubt.split(":")[0] for doubt in doubts] == ["length", "mass"]
+
+
 def test_implausible_thickness_alone_is_replaced() -> None:
     found = sized(estimated_length_m=1.5, estimated_thickness_m=0.0)
     assert found.objects["table"].estimated_size_m == (1.5, 0.8, 0.02)
