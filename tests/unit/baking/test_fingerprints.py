@@ -175,6 +175,13 @@ def test_sound_sources_are_queried_only_when_given(bundle: HapticBundle) -> None
     assert source.n_asked == len(NAMES)
 
 
+def test_a_new_bake_takes_only_locked_loops_from_the_bundle_before(bundle: HapticBundle) -> None:
+    locked = bundle.override("desk_fan", locked=True).overrides
+    again = bake(ROOM, {"audio": Recordings(own_tone(90.0))}, overrides=locked, earlier=bundle)
+    assert again.loops["desk_fan"] == bundle.loops["desk_fan"]
+    assert {again.loops[key]["on"].audible.credit.title for key in NAMES[1:]} == {"mine"}
+
+
 def test_user_clip_keeps_its_pitch_and_others_are_moved_away(bundle: HapticBundle, tmp_path: Path) -> None:
     # The fan's neighbour hums at 100 Hz, so that a selected recording of 101 Hz would be moved.
     wished = bundle.override("desk_fan", clip=own_tone(101.0))
