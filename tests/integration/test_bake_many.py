@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import asyncio
 import json
 import os
@@ -42,7 +43,7 @@ from scene2hap import (
 from scene2hap.baking.many.record import scene_digest
 from scene2hap.baking.many.report import ManyReport
 from scene2hap.baking.many.run import abake_many
-from scene2hap.cli import main
+from scene2hap.cli import bake_many as bake_many_command, main
 from scene2hap.errors import ConfigError
 from scene2hap.llm.backends.chat import BackendWarning
 from scene2hap.llm.lexicon import LexiconBackend
@@ -471,3 +472,13 @@ def test_equal_file_names_get_separate_bundles(scenes: list[Path], tmp_path: Pat
     report = bake_many([scenes[0], others[0]], tmp_path / "out")
     assert len({one.bundle for one in report.scenes}) == 2
     assert report.count("baked") == 2
+
+
+def test_the_command_line_shares_answers_of_scenes_only_on_request() -> None:
+    parser = argparse.ArgumentParser()
+    bake_many_command.add_arguments(parser)
+    given = ["a.glb", "-o", "out"]
+    shared, alone = (
+        bake_many_command.many_settings(parser.parse_args([*given, *more])) for more in (["--share-scenes"], [])
+    )
+    assert shared == {**alone, "share_scenes": True}

@@ -71,12 +71,14 @@ def played(tmp_path: Path, *options: str) -> tuple[int, bytes]:
     if problem := terminal_problem():
         pytest.skip(problem)
     import pty
+    import termios
 
     folder = table_with_two_phones()[1].save(tmp_path / "b")
     child, terminal = pty.fork()
     if child == 0:
         os.environ.update(TERM="xterm", COLUMNS="160", LINES="40")
         os.execv(sys.executable, [sys.executable, "-m", "scene2hap", "play", str(folder), *options])
+    mode = termios.tcgetattr(terminal)
     said, started = b"", time.monotonic()
     sent_s = 0.0
     while time.monotonic() - started < 120:
@@ -92,6 +94,7 @@ def played(tmp_path: Path, *options: str) -> tuple[int, bytes]:
             with contextlib.suppress(OSError):
                 os.write(terminal, b"q")
     _, status = os.waitpid(child, 0)
+    assert termios.tcgetattr(terminal) == mode  # the shell shows what is typed again
     os.close(terminal)
     assert sent_s
     return os.waitstatus_to_exitcode(status), said

@@ -55,6 +55,16 @@ def bomb() -> bytes:
     return first + 1023 * other  # after a full flush equal data is packed into equal bytes
 
 
+def test_only_encrypted_and_local_addresses_are_safe() -> None:
+    safe = ["https://a.example/v1", "http://localhost:8080", "http://127.0.0.1/", "http://[::1]:7862/"]
+    unsafe = ["http://a.example", "http://localhost.a.example", "http://127.0.0.1.a.example", "https://me@a.example"]
+    assert [url for url in (*safe, *unsafe, "ftp://a.example", "https://", "http://[") if web.is_safe(url)] == safe
+
+
+def test_only_a_status_of_success_is_ok() -> None:
+    assert [status for status in (199, 200, 204, 299, 300) if WebReply("", status, b"").ok] == [200, 204, 299]
+
+
 def test_a_gzip_bomb_is_refused_before_it_unpacks() -> None:
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     body = bomb()

@@ -1,5 +1,6 @@
 """Faults between a client and a bridge: each gives a clear error, and other clients play on."""
 
+import asyncio
 import json
 import os
 import random
@@ -12,7 +13,9 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -21,9 +24,13 @@ from websockets.sync.client import connect
 
 from bridge_client import Client, Refused
 from scene2hap import HapticSession, Touch
-from scene2hap.bridge import BridgeServer
+from scene2hap.bridge import BridgeConfig, BridgeServer
+from scene2hap.bridge.frames import Gains
+from scene2hap.bridge.host import Host
+from scene2hap.bridge.hosted_session import HostedSession
 from scene2hap.bridge.played_session import PlayedSession
 from scene2hap.cli import main
+from scene2hap.errors import BridgeError
 from serial_bench import eventually
 
 Bridge = Callable[..., BridgeServer]
@@ -64,6 +71,7 @@ def test_the_first_message_is_a_hello(bridge: Bridge) -> None:
     assert closing_of(url, b"S2HB")[0] == 4000
     assert closing_of(url, "no json")[0] == 4000
     assert closing_of(url, hello(client="x" * 10_000))[0] == 4000
+    assert "at most" in closing_of(url, hello() + " " * 10_000)[1]  # before anything of it is read
     code, _, said = closing_of(url, hello(colour="red"))
     assert code == 4000
     assert "no field 'colour'" in said
@@ -384,3 +392,37 @@ def test_the_command_needs_a_token_for_a_public_interface(bridge: Bridge, capsys
     port = bridge().port  # in use, so that the command would end if it accepted the host
     assert main(["bridge", "--host", "0.0.0.0", "--port", str(port)]) == 1
     assert "needs a token" in capsys.readouterr().err
+
+
+def test_a_sink_that_a_session_is_about_to_open_is_taken() -> None:
+    async def taken_twice() -> None:
+        host = Host(BridgeConfig(sink="memory"), owns_process=False)
+        assert await host.take_sink() == "memory"
+        with pytest.raises(BridgeError, match="another session plays on the sink"):
+            await host.take_sink()
+        host.give_sink_back()
+        assert await host.take_sink() == "memory"
+
+    asyncio.run(taken_twice())
+
+
+def test_a_resumed_session_is_not_forgotten_at_the_end_of_its_first_wait() -> None:
+    """Else a client that is lost twice would have less than `keep_s` to come back."""
+    silence = Gains(1, 0, 0, 0.0, 1, np.zeros(1, np.float32), np.zeros((1, 1, 1), np.float32))
+    session = SimpleNamespace(pause=Mock(), resume=Mock())
+    played = Mock(is_paused=False, session=session, silence=lambda: silence)
+
+    async def lost_and_resumed() -> list[bool]:
+        loop, waits = asyncio.get_running_loop(), []
+        wait = loop.call_later
+        loop.call_later = lambda *given: waits.append(wait(*given)) or waits[-1]  # type: ignore[method-assign]
+        hosted = HostedSession(lambda tell: played, "newest", 600.0, Mock())
+        await hosted.open(Mock())
+        await hosted.lose(hosted.player)
+        await hosted.resume(Mock(), hosted.key.hex().upper())
+        await hosted.lose(hosted.player)
+        return [one.cancelled() for one in waits]
+
+    assert asyncio.run(lost_and_resumed()) == [True, False]
+    played.expect_clock.assert_called_once()
+    session.resume.assert_called_once()

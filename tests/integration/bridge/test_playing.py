@@ -181,7 +181,12 @@ def test_impacts_are_sent_to_clients(bridge: Bridge) -> None:
         impact = client.hear(lambda one: one["type"] == "impact")
         assert impact["object"] == "table"
         assert 0.0 < impact["felt"]["left"] <= 1.0
-        client.socket.send(client.frame(3, 0.04, poses(), [ON_TABLE]))
+        client.socket.send(client.frame(3, 0.2, poses(), [ON_TABLE]))
+        client.next_gains()
+        client.ask("strike", object="table", point_m=[0.1, 0.72, 0.0], speed_m_s=1.0)
+        client.socket.send(client.frame(4, 0.3, poses(), [ON_TABLE]))
+        client.hear(lambda one: one["type"] == "impact")
+        client.socket.send(client.frame(5, 0.4, poses(), [ON_TABLE]))
         client.ask("stats")
         assert not [one for one in client.heard if one["type"] == "impact"], "an impact is told once"
 
@@ -443,6 +448,8 @@ def test_the_server_s_sink_falls_silent_when_its_player_is_killed(bridge: Bridge
     sink = ClockedSink()
     server = bridge(sink=sink)
     with Client(server.url) as client, Client(server.url) as other:
+        with pytest.raises(Refused):
+            client.play(bundle="desk.bundle", moving=["no such object"])  # it leaves the sink to others
         assert client.play(bundle="desk.bundle", moving=[])["sink"] == "ClockedSink"
         with pytest.raises(Refused, match="another session plays on the sink"):
             other.play(bundle="desk.bundle")

@@ -11,11 +11,13 @@ import pytest
 
 from scene2hap import AudioClip, Credit, HapticBundle, SceneSnapshot, VibrationDescription, bake, rebake
 from scene2hap.audio.actuators import ACTUATORS
+from scene2hap.audio.felt_loop import Plan
 from scene2hap.audio.levels import felt_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.tactile.adaptive import Adaptive
 from scene2hap.audio.tactile.stages import StageStream
+from scene2hap.baking.fingerprint import made_by
 from scene2hap.errors import BundleError, ConfigError
 from scenes import box, scene, tone_loop
 
@@ -167,9 +169,17 @@ def test_sound_sources_are_queried_only_when_given(bundle: HapticBundle) -> None
     again, told = remade(bundle, {"audio": source})
     assert source.n_asked == len(NAMES) == len(told)
     assert remade(again)[1] == {}
+    assert "sound" in remade(again, objects=["desk_fan"])[1]["desk_fan"]["on"]
     assert {loop.audible.credit.title for states in again.loops.values() for loop in states.values()} == {"mine"}
     assert remade(again, {"audio": source})[1] == {}
     assert source.n_asked == len(NAMES)
+
+
+def test_a_new_bake_takes_only_locked_loops_from_the_bundle_before(bundle: HapticBundle) -> None:
+    locked = bundle.override("desk_fan", locked=True).overrides
+    again = bake(ROOM, {"audio": Recordings(own_tone(90.0))}, overrides=locked, earlier=bundle)
+    assert again.loops["desk_fan"] == bundle.loops["desk_fan"]
+    assert {again.loops[key]["on"].audible.credit.title for key in NAMES[1:]} == {"mine"}
 
 
 def test_user_clip_keeps_its_pitch_and_others_are_moved_away(bundle: HapticBundle, tmp_path: Path) -> None:
@@ -219,6 +229,19 @@ def test_audible_loop_replaces_a_missing_source_clip(bundle: HapticBundle) -> No
     assert remade(again)[1] == {}
 
 
+def test_sources_stay_clear_of_a_locked_loop(bundle: HapticBundle) -> None:
+    assert remade(bundle.override("microwave_oven", locked=True))[1] == {}
+
+
+def test_only_a_loop_without_a_target_depends_on_its_neighbours() -> None:
+    def plan_name(target_hz: float | None, neighbour_hz: float) -> str:
+        context = ConversionContext(neighbours_hz=(neighbour_hz,), target_hz=target_hz)
+        return made_by(own_tone(), "", Plan(context, 0.0))["plan"]
+
+    assert plan_name(None, 100.0) != plan_name(None, 101.0)
+    assert plan_name(80.0, 100.0) == plan_name(80.0, 101.0)
+
+
 def without_fingerprints(folder: Path) -> Path:
     """Rewrite a folder like those of earlier versions, without fingerprints and settings."""
     rows = json.loads((folder / "loops.json").read_text())
@@ -239,6 +262,7 @@ def test_bundle_without_fingerprints_is_kept_until_a_setting_changes(bundle: Hap
         again, told = remade(old)
     assert told == {}
     assert again.loops == old.loops
+    assert again.actuator is None  # nothing says with what its loops were made
     again, told = remade(old, {"actuator": "lra"})
     assert set(told) == set(NAMES)
     assert {why for states in told.values() for why in states.values()} == {("no fingerprint",)}

@@ -55,6 +55,13 @@ def test_offsets_are_those_of_the_page() -> None:
     assert len(FRAME) == 40 + 28 + 20
 
 
+def test_a_frame_without_poses_takes_those_of_a_skipped_frame_of_its_layout() -> None:
+    later = decode_frame(encode_frame(1, KEY, 8, 0.6, np.empty((0, 7), np.float32), []))
+    skipped = decode_frame(FRAME)
+    assert later.after(skipped).poses is skipped.poses
+    assert len(later._replace(layout=2).after(skipped).poses) == 0  # they would move other objects
+
+
 def test_a_frame_without_poses_or_touches() -> None:
     frame = decode_frame(encode_frame(2, KEY, 1, 0.0, np.empty((0, 7), np.float32), []))
     assert (len(frame.poses), len(frame.touches)) == (0, 0)

@@ -64,6 +64,10 @@ def test_a_name_in_a_file_of_corrections_is_applied_and_shown(
         ('{"format": "scene2hap/overrides", "version": 1}', "overrides must map ids"),
         ('{"format": "scene2hap/overrides", "version": 1, "overrides": {"phone": 3}}', "overrides must map ids"),
         ('{"format": "scene2hap/overrides", "version": 1, "overrides": {"phone": {"gain": 3}}}', "'gain'.*gain_db"),
+        (
+            '{"format": "scene2hap/overrides", "version": 1, "overrides": {"phone": {"clip": "a.wav"}}}',
+            "no field 'clip'",
+        ),
         ('{"format": "scene2hap/overrides", "version": 1, "overrides": {"phone": {"gain_db": "x"}}}', "gain_db is 'x'"),
     ],
 )

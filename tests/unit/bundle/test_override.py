@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from scene2hap import AudioClip, Credit, HapticBundle, HapticSession, Material, Touch, materials
+from scene2hap.bundle import Override
 from scene2hap.errors import AudioError, BundleError, UnknownMaterial, UnknownObject
 from scenes import RATE, table_with_two_phones
 
@@ -57,6 +58,13 @@ def test_overrides_accumulate(bundle: HapticBundle) -> None:
     twice = bundle.override(source, gain_db=-3.0).override(source, material="brass")
     assert twice.gain_db(source) == -3.0
     assert twice.objects[source].material == materials.lookup("brass")
+
+
+def test_a_number_is_of_all_states_that_have_none_of_their_own() -> None:
+    wish = Override(pitch_hz={"*": 120.0, "high": 90.0})
+    assert [wish.pitch_of("on"), wish.pitch_of("high"), Override().pitch_of("on")] == [120.0, 90.0, None]
+    assert wish.changed({"pitch_hz": {"low": 60.0}}).pitch_hz == {"*": 120.0, "high": 90.0, "low": 60.0}
+    assert wish.changed({"pitch_hz": 150.0}).pitch_hz == {"*": 150.0}
 
 
 def test_corrections_are_kept_in_the_folder(bundle: HapticBundle, tmp_path: Path) -> None:

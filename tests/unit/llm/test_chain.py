@@ -11,6 +11,7 @@ from scene2hap import LLMReply, LLMRequest, infer_haptics
 from scene2hap.llm.chain import infer_scene
 from scene2hap.llm.prompts import VERSION
 from scene2hap.llm.questions import Slots
+from scene2hap.llm.wrappers import price_list
 from scripted_backend import SCENE, Scripted, run
 
 
@@ -134,6 +135,7 @@ def test_the_account_counts_calls_and_tokens() -> None:
     }
     assert report.tokens == {"m-1": {"prompt_tokens": 300, "completion_tokens": 21}}
     assert (report.unmetered, report.kept) == (5, 0)
+    assert report.cost_usd(price_list({"m-1": (1.0, 1.0)})) is None  # five answers came without their usage
     assert report.skipped["silent"] == 2
     assert report.skipped["same_material"] == 1
     assert json.loads(json.dumps(report.as_json()))["calls"]["object_analyzer"] == 3

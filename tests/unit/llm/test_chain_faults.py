@@ -20,7 +20,10 @@ from scene2hap import (
     materials,
 )
 from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, ReplayMiss
+from scene2hap.llm.backends.chat import UnusableAnswer
 from scripted_backend import SCENE, Scripted, run
+
+STATE = {"name": "on", "intensity": 0.5, "needs_contact": None}
 
 
 def test_unknown_material_leaves_other_answers_valid() -> None:
@@ -71,6 +74,15 @@ def test_bad_answer_affects_only_its_object() -> None:
     assert list(found.report.errors) == ["cup"]
 
 
+def test_an_unusable_answer_that_was_billed_is_in_the_account() -> None:
+    def change(request: LLMRequest, answer: dict[str, Any]) -> dict[str, Any]:
+        if request.subject == "cup":
+            raise UnusableAnswer("cut", model="m", usage={"prompt_tokens": 9})
+        return answer
+
+    assert run(Scripted(object_analyzer=change)).report.tokens == {"m": {"prompt_tokens": 9}}
+
+
 def test_failing_describer_keeps_the_state() -> None:
     found = run(Scripted(vibration_describer=lambda request, answer: {**answer, "keywords": "phone vibrating"}))
     state = found.objects["phone"].states[0]
@@ -105,6 +117,14 @@ def test_error_common_to_all_calls_ends_the_run_after_running_calls(refusal: Exc
         run(backend, {"concurrency": 2})
     assert backend.answered == len(backend.asked)  # running calls were completed
     assert not [request for request in backend.asked if request.component == "vibration_describer"]
+
+
+def test_such_an_error_at_the_materials_which_are_asked_for_last_is_raised() -> None:
+    def refuse(request: LLMRequest, answer: dict[str, Any]) -> dict[str, Any]:
+        raise BudgetExceeded("no money left")
+
+    with pytest.raises(BudgetExceeded, match="no money left"):
+        run(Scripted(material_estimator=refuse), {"inference": "lazy"})
 
 
 @pytest.mark.parametrize("wrapper", [CacheBackend, RecordingBackend])
@@ -153,6 +173,7 @@ def test_lost_connection_affects_only_the_running_request() -> None:
             r"'I think.*Invalid JSON.*must be JSON of",
         ),
         (lambda request, answer: LLMReply(json.dumps(answer)[:40], "scripted", "length"), "ended by 'length'"),
+        (lambda request, answer: {**answer, "states": [STATE, {**STATE, "name": " On"}]}, "states .* repeat a name"),
     ],
 )
 def test_error_describes_an_invalid_answer(change: object, sentence: str) -> None:
@@ -191,6 +212,11 @@ def test_a_start_of_minutes_counts_as_the_longest_that_can_be_felt() -> None:
     state = found.objects["phone"].states[0]
     assert (state.start_up_s, state.wind_down_s, state.keywords) == (30.0, 4.0, "phone buzzing")
     assert not found.report.errors
+
+
+def test_a_turn_on_without_a_turn_off_is_no_description() -> None:
+    found = run(Scripted(vibration_describer=lambda request, answer: {**answer, "on_s": 4.0}))
+    assert "on_s and off_s belong together" in found.report.errors["phone, state ringing"]
 
 
 def test_a_state_in_which_nothing_moves_is_left_out() -> None:

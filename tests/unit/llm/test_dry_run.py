@@ -19,6 +19,7 @@ from scripted_backend import SCENE
     ("model", "size_px", "detail", "tokens"),
     [
         ("gpt-4o", 1024, "high", 765),  # OpenAI's example: 85 + 4 * 170
+        ("gpt-4o", 2048, "high", 765),  # it is scaled down to 768 px first
         ("gpt-4o", 512, "high", 85 + 170),
         ("gpt-4o-2024-08-06", 4096, "low", 85),  # OpenAI's second example
         ("gpt-4o-mini", 512, "high", 2833 + 5667),
@@ -54,9 +55,11 @@ def test_dry_run_counts_pictures_without_rendering() -> None:
     shots = ImageSet(NoCamera(), [Shot("isolated", "x", 45.0 * i, 45.0) for i in range(8)])
     objects = tuple(replace(item, images=ObjectImages(shots, shots)) for item in SCENE.objects)
     pictured = replace(SCENE, objects=objects, images=ImageSet(NoCamera(), shots.shots[:4]))
-    told = asyncio.run(dry_run(pictured, "gpt-4o"))
+    told = asyncio.run(dry_run(pictured, "gpt-4o", prices={"gpt-4o": (3.0, 7.0)}))
     assert told.images == 4 + 16 * 3
     assert told.image_tokens == 85 * told.images
+    read = told.text_tokens + 85 * told.images
+    assert told.cost_usd == pytest.approx((3.0 * read + 7.0 * told.answer_tokens) / 1e6)
 
 
 def test_cost_is_tokens_times_price() -> None:

@@ -44,6 +44,7 @@ def test_first_object_finds_json_in_any_surrounding_text(
         ('<think>{"a": 1}', '{"a": 1}'),
         ('<THINK>{"a": 1}</THINK>{"a": 2}', '{"a": 2}'),
         ('a draft {"a": 1}</think> and {"a": 2}', '{"a": 2}'),
+        ('{"a": 1}<think>no</think> but {"a": 2}</think>{"a": 3}', '{"a": 3}'),
         ("{}", "{}"),
         ('{"a": {"b": 1}', None),
         ('[1, "{"]', None),

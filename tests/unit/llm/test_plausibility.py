@@ -83,6 +83,21 @@ def test_repair_request_states_the_bound_and_second_failure_keeps_the_answer() -
     assert "2610 to 23600 kg/m3" in inner.requests[1].prompt
 
 
+@pytest.mark.parametrize(
+    ("constant", "low", "high"),
+    # The table has for steel: 7820 to 7860 kg/m3, 190 to 210 GPa, 0.27 to 0.32, and a loss factor of up to 0.001.
+    [
+        ("density_kg_m3", 7820 / 3, 7860 * 3),
+        ("youngs_modulus_gpa", 190 / 10, 210 * 10),
+        ("poisson_ratio", 0.27 - 0.2, 0.32 + 0.2),
+        ("damping_ratio", 0.0, 0.001 / 2 * 100),
+    ],
+)
+def test_constants_may_be_some_way_outside_the_published_range(constant: str, low: float, high: float) -> None:
+    assert [constants("steel", {constant: value}) for value in (low + 1e-6, high - 1e-6)] == [{}, {}]
+    assert all(constants("steel", {constant: value}) for value in (low - 1e-6, high + 1e-6))
+
+
 @pytest.mark.parametrize("edges", [(180.0, 70.0, 5.5), (1.8, 0.7, 0.0), (1.8, 0.7, 2.0), (0.2, 0.7, 0.05), (0, 0, 0)])
 def test_sizes_far_from_measured_sizes_are_reported(edges: tuple[float, float, float]) -> None:
     assert "but it was measured as" in told_of_size(*edges)
@@ -91,6 +106,22 @@ def test_sizes_far_from_measured_sizes_are_reported(edges: tuple[float, float, f
 @pytest.mark.parametrize("edges", [(1.8, 0.7, 0.05), (0.7, 1.8, 0.02), (2.0, 0.8, 0.001), (1.2, 0.6, 0.1)])
 def test_sizes_near_the_measured_ones_pass(edges: tuple[float, float, float]) -> None:
     assert told_of_size(*edges) == ""
+
+
+def test_length_and_width_may_be_exchanged() -> None:
+    assert told_of_size(0.1, 2.0, 0.02, length_m=2.0, width_m=0.1, thickness_m=0.02) == ""
+
+
+def test_an_edge_that_was_measured_as_nothing_has_the_upper_bound_of_the_other() -> None:
+    sheet_on_edge = {"length_m": 1.0, "width_m": 0.0, "thickness_m": 0.0}
+    assert told_of_size(2.9, 2.9, 2e-5, **sheet_on_edge) == ""
+    assert "width_m: 3.1 m, but it was measured as 0 m" in told_of_size(3.1, 3.1, 2e-5, **sheet_on_edge)
+
+
+def test_no_plate_is_thicker_than_a_third_of_its_width() -> None:
+    plank = {"length_m": 2.0, "width_m": 0.12, "thickness_m": 0.0}
+    assert told_of_size(2.0, 0.12, 0.039, **plank) == ""
+    assert "give 2e-05 to 0.04 m" in told_of_size(2.0, 0.12, 0.041, **plank)
 
 
 def test_floor_without_thickness_accepts_only_plausible_thickness() -> None:
@@ -122,6 +153,18 @@ def test_implausible_size_is_replaced_by_the_measured_size_and_reported() -> Non
     assert found.report.as_json()["doubts"]["table"] == list(told)
 
 
+def test_length_and_width_are_replaced_together() -> None:
+    found = sized(estimated_length_m=180.0, estimated_width_m=0.9, estimated_thickness_m=0.03)
+    assert found.objects["table"].estimated_size_m == (1.6, 0.8, 0.03)
+
+
+def test_a_mass_is_at_most_that_of_the_solid_box_and_its_doubt_stands_beside_others() -> None:
+    found = sized(estimated_mass_kg=100.0).objects["table"]
+    assert found.mass_kg == pytest.approx(1.6 * 0.8 * 0.02 * 700.0)  # the oak of the scripted answers
+    doubts = sized(estimated_mass_kg=1e6, estimated_length_m=180.0).report.doubts["table"]
+    assert [doubt.split(":")[0] for doubt in doubts] == ["length", "mass"]
+
+
 def test_implausible_thickness_alone_is_replaced() -> None:
     found = sized(estimated_length_m=1.5, estimated_thickness_m=0.0)
     assert found.objects["table"].estimated_size_m == (1.5, 0.8, 0.02)
@@ -130,10 +173,11 @@ def test_implausible_thickness_alone_is_replaced() -> None:
 def test_report_lists_contact_needs_that_no_object_meets() -> None:
     def change(asked: LLMRequest, answer: dict[str, Any]) -> dict[str, Any]:
         states = [{"name": "ringing", "intensity": 0.5, "needs_contact": "stove"}]
-        return {**answer, "states": states} if asked.subject == "phone" else answer
+        return {**answer, "states": states, "estimated_length_m": 9.0} if asked.subject == "phone" else answer
 
     found = asyncio.run(infer_scene(SCENE, Scripted(object_analyzer=change)))
-    assert "needs contact with 'stove'" in found.report.doubts["phone"][0]
+    assert found.report.doubts["phone"][0].startswith("length: 9 m")
+    assert "needs contact with 'stove'" in found.report.doubts["phone"][-1]
     assert found.objects["phone"].states[0].needs_contact == "stove"
     assert "stove" in found.objects["phone"].reasons["contact"]
 

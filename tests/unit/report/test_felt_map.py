@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 
 from others import SCENES, needed
 from scene2hap import (
+    AudioClip,
     Box,
     HapticBundle,
     HapticSession,
@@ -22,9 +24,12 @@ from scene2hap import (
     load_scene,
     rebake,
 )
+from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.audio.threshold import threshold_db
 from scene2hap.demo import kitchen_path
 from scene2hap.report.document import level_bytes
 from scene2hap.report.felt_map import ALL_BANDS, ALL_SOURCES, FeltMap, felt_map
+from scenes import table_with_two_phones, tone_loop
 
 N_POINTS = 200
 MODEL = "exponential_plate"
@@ -85,6 +90,19 @@ def test_the_felt_map_has_the_gains_and_paths_of_a_session(name: str, kitchen_bu
                 (stored,) = np.frombuffer(level_bytes(np.array([level], np.float32)), "<u2")
                 assert (int(stored) - 1) / 65_534 * 70.0 - 20.0 == pytest.approx(expected, abs=0.1)
     assert n_felt >= least
+
+
+def test_the_bands_of_a_source_share_its_felt_power() -> None:
+    """Two tones of equal amplitude are felt by their levels above the threshold of touch."""
+    bundle = table_with_two_phones()[1]
+    low, high = tone_loop(60.0).tactile, tone_loop(250.0).tactile
+    both = AudioClip(low.samples + high.samples, low.sample_rate_hz)
+    felt = felt_map(replace(bundle, loops={"phone": {"on": HapticLoop(both, both, 60.0, 60.0)}}), ("no_propagation",))
+    of_band = {band: levels.max() for band, levels in felt.levels_db["no_propagation"]["phone"].items()}
+    above_db = -threshold_db([60.0, 250.0])
+    assert of_band["125-400 Hz"] - of_band["40-125 Hz"] == pytest.approx(above_db[1] - above_db[0], abs=0.01)
+    powers = [10.0 ** (level / 10.0) for band, level in of_band.items() if band != ALL_BANDS]
+    assert 10.0 * np.log10(sum(powers)) == pytest.approx(of_band[ALL_BANDS], abs=0.01)
 
 
 def _assert_path(felt: FeltMap, source: str, place: int, object_id: str, bundle: HapticBundle) -> None:

@@ -59,6 +59,11 @@ def test_rotated_house_has_the_same_walls() -> None:
         assert out == pytest.approx(tuple(wanted), abs=1e-5)
 
 
+def test_cupboards_along_a_side_are_no_wall() -> None:
+    cupboards: Things = {"cupboards": ((0.0, HEIGHT / 2, -1.8), (SIDE, HEIGHT, 0.4))}
+    assert walls(room({**FLOOR, **cupboards})) == {}
+
+
 def test_wall_pieces_are_joined() -> None:
     pieces: Things = {f"wall_{i}": ((-1.5 + i, HEIGHT / 2, -1.95), (1.0, HEIGHT, THICK)) for i in range(4)}
     assert set(walls(room({**FLOOR, **pieces, **FURNITURE}))) == set(pieces)

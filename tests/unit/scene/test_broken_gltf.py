@@ -25,6 +25,14 @@ SPARSE = {
     "indices": {"bufferView": 2, "componentType": 5123},
     "values": {"bufferView": 0},
 }
+# Seven positions, of which the eighth is replaced: the ninth corner of the cube's faces is vertex 7.
+ONE_TOO_FAR = {
+    "bufferView": 0,
+    "componentType": 5126,
+    "count": 7,
+    "type": "VEC3",
+    "sparse": {**SPARSE, "indices": {"bufferView": 1, "componentType": 5123, "byteOffset": 16}},
+}
 
 
 def broken(tmp_path: Path, change: Callable[[Json], object], gltf: Gltf | None = None) -> Path:
@@ -87,6 +95,7 @@ def setting(*path: str | int, to: Any) -> Callable[[Json], object]:
         (setting("accessors", 1, "componentType", to=5125), "wants bytes 0 to 144 of a buffer view of 72"),
         (setting("accessors", 0, "sparse", to=[]), r"accessors\[0\]\.sparse must be an object"),
         (setting("accessors", 0, "sparse", to=SPARSE), r"accessors\[0\]\.sparse replaces value 65535; there are 8"),
+        (setting("accessors", 0, to=ONE_TOO_FAR), r"accessors\[0\]\.sparse replaces value 7; there are 7"),
         (setting("bufferViews", 0, "byteLength", to=10**9), r"bufferViews\[0\] wants bytes 0 to 1000000000"),
         (setting("bufferViews", 0, "byteStride", to=4), "wants bytes"),
         (setting("bufferViews", 0, "buffer", to="0"), r"buffers\['0'\]; the file has 1"),

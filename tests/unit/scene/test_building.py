@@ -11,7 +11,7 @@ import trimesh
 
 from edge_scenes import EDGE_SCENES
 from others import SCENES, needed
-from scene2hap import Box, DominantSurface, Pose, SceneObject, SceneSnapshot, TriMesh, bake, load_scene
+from scene2hap import Box, DominantSurface, Hinge, Pose, SceneObject, SceneSnapshot, TriMesh, bake, load_scene
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import SceneError
 from scene2hap.llm.sharing import copies
@@ -60,6 +60,22 @@ def test_copies_share_a_key_and_an_analysis() -> None:
     assert scene.object("stool").instance_key != SceneSnapshot.build(ROOM).object("mug").instance_key
     shared = copies(scene, ContactGraph(scene), {})
     assert [shared[item.id] for item in scene.objects] == [*["chair 0"] * 4, "stool", "bench"]
+
+
+def test_equal_links_of_different_robots_are_no_copies() -> None:
+    on = {"link 1": "joint 1", "joint 1": "robot", "link 2": "joint 2", "joint 2": "crane"}
+    things = [
+        SceneObject(
+            name,
+            pose=Pose((2.0 * k, 0.0, 0.0)),
+            geometry=Box((0.1, 0.1, 0.1)),
+            hinge=Hinge(on[name], (1.0, 0, 0), (-1.0, 0, 0)) if name in on else None,
+        )
+        for k, name in enumerate(["link 1", "joint 1", "robot", "link 2", "joint 2", "crane"])
+    ]
+    snapshot = SceneSnapshot.build(things)
+    assert len({item.instance_key for item in snapshot.objects}) == 1
+    assert copies(snapshot, ContactGraph(snapshot))["link 2"] == "link 2"
 
 
 def test_surface_faces_up_with_z_up() -> None:

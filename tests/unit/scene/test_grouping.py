@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gltf_builder import CUBE, CUBE_FACES
-from scene2hap.errors import SceneError
+from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.grouping.groups import Group, group_objects, unique_ids
 from scene2hap.scene.grouping.split import has_own_noun
 from scene2hap.scene.tree import AuthoredNode, Piece
@@ -78,6 +78,11 @@ def test_joined_children_whose_names_say_nothing_are_one_object() -> None:
 
 def test_joined_children_that_are_only_numbered_are_one_object() -> None:
     assert objects(group("table", mesh("p0"), mesh("p1", at=0.5))) == {"table": ["p0", "p1"]}
+
+
+def test_parts_of_copies_are_in_one_order_whatever_order_the_file_has() -> None:
+    seat, leg = mesh("seat", mesh("cube")), mesh("leg", mesh("cube"), at=0.5)
+    assert objects(group("chair", seat, leg)) == objects(group("chair", leg, seat))
 
 
 def test_children_that_stand_apart_are_separate_objects_whatever_their_names() -> None:
@@ -324,6 +329,12 @@ def test_every_piece_of_a_collection_belongs_to_one_object() -> None:
     assert sorted(key for keys in objects(tree).values() for key in keys) == sorted(names)
 
 
+@pytest.mark.parametrize("corner", [-1, len(CUBE)])
+def test_a_face_of_a_vertex_that_does_not_exist_is_refused(corner: int) -> None:
+    with pytest.raises(SceneFormatError, match=f"node 'x': a face uses vertex {corner}; there are 8"):
+        Piece.checked("x", CUBE, [[0, 1, corner]], "", "node 'x'")
+
+
 def test_mass_is_assigned_only_when_the_node_is_a_whole_object() -> None:
     """A mass is dropped if the node contains other objects, or if it is one of several parts of the object."""
 
@@ -338,6 +349,7 @@ def test_mass_is_assigned_only_when_the_node_is_a_whole_object() -> None:
     assert masses(group("room", fridge, mesh("table"))) == {"fridge": 50.0, "table": None}
     desk = replace(mesh("desk", mesh("drawer", mesh("handle"))), mass_kg=9.0)
     assert masses(desk) == {"desk": None, "drawer": None}
+    assert masses(replace(group("workbench", desk), mass_kg=9.0)) == {"workbench": None, "drawer": None}
     assert masses(fridge, how="leaf") == {"fridge": None, "door": 2.0}
     assert masses(group("room", fridge), how=2) == {"fridge": 50.0}
     assert masses(group("room", fridge), how={"fridge": "icebox"}) == {"icebox": 50.0}

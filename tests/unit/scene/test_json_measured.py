@@ -82,8 +82,9 @@ def test_scene_with_given_surfaces_is_read_without_measuring() -> None:
 
 
 @pytest.mark.parametrize(("thickness_m", "told"), [(0.0, "it must be above"), (2.0, "geometry is 0.1 m thick there")])
-def test_implausible_stated_thickness_is_refused(thickness_m: float, told: str) -> None:
-    turned = {"rotation_xyzw": [-(0.5**0.5), 0, 0, 0.5**0.5], "position_m": [-2.5, 0, 2]}
+@pytest.mark.parametrize("rotation", [(-(0.5**0.5), 0, 0, 0.5**0.5), (-0.5, -0.5, -0.5, 0.5)])
+def test_implausible_stated_thickness_is_refused(rotation: tuple[float, ...], thickness_m: float, told: str) -> None:
+    turned = {"rotation_xyzw": rotation, "position_m": [-2.5, 0, 2]}  # both turn the surface's z to the floor's y
     surface = {"pose": turned, "length_m": 5, "width_m": 4, "thickness_m": thickness_m}
     floor = {"kind": "box", "size_m": [5, 0.1, 4]}
     with pytest.raises(SceneError, match=told):

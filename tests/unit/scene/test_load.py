@@ -26,8 +26,9 @@ def test_path_can_be_a_string(tmp_path: Path) -> None:
 def test_json_is_a_scene_file(tmp_path: Path) -> None:
     before = scene(box("table", (1, 1, 1), (0, 0, 0)))
     path = tmp_path / "scene.json"
-    path.write_text(before.to_json(), encoding="utf-8")
-    assert load_scene(path) == before
+    for encoding in ("utf-8", "utf-8-sig"):  # editors of Windows write a mark before the text
+        path.write_text(before.to_json(), encoding=encoding)
+        assert load_scene(path) == before
 
 
 @pytest.mark.parametrize("options", [{"up_axis": "z"}, {"unit_m": 0.01}, {"group": "leaf"}])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -55,6 +56,12 @@ def test_each_connected_surface_is_an_object_with_its_faces_and_looks(by_corner:
 
 def test_pieces_of_other_materials_that_meet_are_one_part() -> None:
     assert [len(part) for part in parts(cubes(0.0), cubes(1.0, 5.0, key="other"))] == [2, 1]
+
+
+def test_corners_that_differ_by_the_rounding_of_float32_are_one_place() -> None:
+    apart = cubes(0.0, 7.0, by_corner=True)
+    off = np.random.default_rng(1).uniform(-2e-7, 2e-7, apart.vertices.shape)
+    assert len(parts(replace(apart, vertices=apart.vertices + off))) == 2
 
 
 def test_a_connected_mesh_stays_as_it_is() -> None:

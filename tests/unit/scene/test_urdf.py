@@ -414,12 +414,15 @@ def test_urdf_with_xml_suffix_is_refused_with_a_hint(home: Path) -> None:
 
 
 def test_error_names_the_exceeded_limit(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = write(home, mesh("meshes/t.obj") + mesh("meshes/t.obj").replace("'a'", "'b'"))
+    for name in ("t", "u"):
+        (home / f"meshes/{name}.obj").write_text(f"# {'a' * 500}\n{TETRAHEDRON}")
+    path = write(home, mesh("meshes/t.obj") + mesh("meshes/u.obj").replace("'a'", "'b'"))
     for owner, limit, value, what in (
         (urdf, "MAX_XML_BYTES", 10, "URDF of up to 10 is read"),
         (limits, "MAX_OBJECTS", 1, "number of links is 2"),
         (limits, "MAX_TRIANGLES", 7, "number of triangles is 8"),
         (limits, "MAX_NODES", 3, "number of elements"),
+        (limits, "MAX_FILE_BYTES", 2 * (home / "meshes/t.obj").stat().st_size - 1, "bytes of all meshes"),
     ):
         with monkeypatch.context() as patch, pytest.raises(SceneError, match=what):
             patch.setattr(owner, limit, value)

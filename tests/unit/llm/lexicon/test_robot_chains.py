@@ -56,6 +56,8 @@ def test_a_long_series_that_names_nothing_else_is_an_arm() -> None:
     assert arm["link3"].confidence < in_chain(ROBOTS["Sawyer"])["right_l0"].confidence
     # A cabinet of which each part is called a link has many doors, but none hangs on another.
     assert {answer.object_category for answer in in_chain(names, n_in_series=2).values()} == {"unknown"}
+    arms = [n for n in range(4, 15) if in_chain(names, n)["link3"].object_category == "robot part"]
+    assert arms == [6, 7, 8, 9, 10, 11, 12]
     rope = [f"seg_{i}" for i in range(40)]
     assert {answer.object_category for answer in in_chain(rope, n_in_series=40).values()} == {"unknown"}
     cable = in_chain([*names, "cable"], n_in_series=8)
@@ -73,6 +75,7 @@ def test_a_long_series_that_names_nothing_else_is_an_arm() -> None:
         (["laptop_base", "screen"], None),
         (["microroot", "microwave", "microdoorroot"], "microdoorroot"),
         (["toy_robot", "xyz"], "xyz"),
+        (["replica_robot", "xyz"], "xyz"),
         (["palm", "xyz"], "xyz"),
     ],
 )

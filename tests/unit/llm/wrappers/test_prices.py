@@ -50,6 +50,11 @@ def test_cached_input_and_tiers_have_separate_prices() -> None:
     assert listed.cost_usd("nobody", usage) is None
 
 
+def test_more_cached_input_than_input_costs_as_the_input() -> None:
+    usage = {"prompt_tokens": 1_000_000, "cached_tokens": 9_000_000, "completion_tokens": 0}
+    assert Price(2.0, 8.0, 0.5).cost(usage) == 0.5
+
+
 def test_cached_input_never_costs_more_than_fresh() -> None:
     for model, price in price_list().prices.items():
         assert (price.cached_input_per_million or 0.0) < price.input_per_million, model
