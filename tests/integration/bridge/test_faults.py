@@ -6,6 +6,7 @@ import os
 import random
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import threading
@@ -126,6 +127,10 @@ def test_without_a_root_there_are_no_files(bridge: Bridge) -> None:
         client.ask("play", bundle="desk.bundle")
 
 
+def _touch(hand: int, thing: int) -> bytes:
+    return struct.pack("<IIfff", hand, thing, 0.0, 0.72, 0.0)
+
+
 def test_failed_requests_are_reported_and_the_session_continues(bridge: Bridge) -> None:
     with Client(bridge().url) as client:
         with pytest.raises(Refused, match="no session"):
@@ -145,6 +150,8 @@ def test_failed_requests_are_reported_and_the_session_continues(bridge: Bridge) 
             client.frame(1, 1.0, np.full((1, 7), np.nan), []),
             client.frame(1, 1.0, NO_POSES, [])[:-3],
             client.frame(1, 1.0, NO_POSES, [ON_TABLE])[:-20] + b"\xff" * 20,
+            client.frame(1, 1.0, NO_POSES, [ON_TABLE])[:-20] + _touch(len(client.order["hands"]), 0),
+            client.frame(1, 1.0, NO_POSES, [ON_TABLE])[:-20] + _touch(0, len(client.order["objects"])),
             client.frame(1, 1.0, NO_POSES, [])[:8] + bytes(8) + client.frame(1, 1.0, NO_POSES, [])[16:],
             b"S2HB\x07\x01",
             b"",

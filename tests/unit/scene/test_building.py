@@ -234,6 +234,19 @@ def test_a_roof_is_no_floor() -> None:
     assert SceneSnapshot.build([roof, *posts, bench]).check() == ()
 
 
+def test_the_lowest_floor_of_a_house_is_its_floor() -> None:
+    """Things on the lower one are below the upper one, and not sunk."""
+    floors = [
+        SceneObject(name, pose=Pose((0, y, 0)), geometry=Box((5.0, 0.1, 5.0)))
+        for name, y in (("upper floor", 2.55), ("lower floor", -0.05))
+    ]
+    stools = [
+        SceneObject(f"stool {k}", pose=Pose((k - 2.0, y, 0)), geometry=Box((0.4, 0.4, 0.4)))
+        for k, y in enumerate((0.2, 0.2, 0.2, 2.8, 2.8))
+    ]
+    assert SceneSnapshot.build([*floors, *stools]).check() == ()
+
+
 def test_check_finds_real_scene_lifted_off_its_floor() -> None:
     scene = load_scene(needed(SCENES / "composed_kitchen_kaykit/composed_kitchen_kaykit.glb"))
     up = {"y": 1, "z": 2}[scene.up_axis]
