@@ -72,9 +72,7 @@ namespace Scene2Hap
             if (touched == null)
                 return false;
             int i = Array.IndexOf(hands, hand);
-            Tracked found = null;
-            for (Transform at = touched.transform; at != null && found == null; at = at.parent)
-                byRoot.TryGetValue(at.gameObject, out found);
+            Tracked found = TrackedAt(touched.transform);
             if (i < 0 || found == null)
                 return false;
             touches[i].Object = found;
@@ -97,7 +95,10 @@ namespace Scene2Hap
             if (Client == null || byRoot.ContainsKey(made))
                 return;
             Tracked one = Describe(made, PathOf(made.transform, false));
-            if (one != null && Client.State == ClientState.Playing)
+            if (one == null)
+                return;
+            DescribeHinge(one);
+            if (Client.State == ClientState.Playing)
                 AddToSession(one);
         }
 
@@ -245,13 +246,16 @@ namespace Scene2Hap
                 counts.TryGetValue(PathOf(one.transform, false), out before);
                 counts[PathOf(one.transform, false)] = before + 1;
             }
-            SceneText scene = new SceneText(gameObject.name);
             foreach (GameObject one in found)
             {
                 string path = PathOf(one.transform, false);
-                Tracked described = Describe(one, counts[path] > 1 ? PathOf(one.transform, true) : path);
-                if (described != null)
-                    scene.AddRaw(described.Json);
+                Describe(one, counts[path] > 1 ? PathOf(one.transform, true) : path);
+            }
+            SceneText scene = new SceneText(gameObject.name);
+            foreach (Tracked one in tracked)
+            {
+                DescribeHinge(one);
+                scene.AddRaw(one.Json);
             }
             if (tracked.Count > 0)
                 return scene.ToString();
@@ -309,6 +313,31 @@ namespace Scene2Hap
             tracked.Add(one);
             byRoot[root] = one;
             return one;
+        }
+
+        /// <summary>Add the pivot of the first HingeJoint that connects an object to another one. That one must have been
+        /// described.</summary>
+        void DescribeHinge(Tracked one)
+        {
+            foreach (HingeJoint joint in one.Root.GetComponentsInChildren<HingeJoint>())
+            {
+                Tracked other = joint.connectedBody == null ? null : TrackedAt(joint.connectedBody.transform);
+                if (other == null || other == one || OwnerOf(joint.transform, one.Root) != one.Root)
+                    continue;
+                Vector3 own = InOwnFrame(one.Transform, joint.transform, joint.anchor) - one.Center;
+                Vector3 others = InOwnFrame(other.Transform, joint.transform, joint.anchor) - other.Center;
+                one.Json = SceneText.Hinged(one.Json, other.Id, Numbers(own), Numbers(others));
+                return;
+            }
+        }
+
+        /// <summary>The object that a part belongs to; null if there is none.</summary>
+        Tracked TrackedAt(Transform part)
+        {
+            Tracked found = null;
+            for (Transform at = part; at != null && found == null; at = at.parent)
+                byRoot.TryGetValue(at.gameObject, out found);
+            return found;
         }
 
         /// <summary>The nearest tagged object above a piece: a tagged knob is no piece of its cooktop.</summary>

@@ -393,6 +393,13 @@ namespace Scene2Hap
             return one.End(']').End().ToString();
         }
 
+        /// <summary>An object that is JSON already, held on another one by a pivot in the frames of both.</summary>
+        public static string Hinged(string objectJson, string to, double[] pointM, double[] otherPointM)
+        {
+            JsonText hinge = new JsonText().Add("to", to).Add("point_m", pointM).Add("other_point_m", otherPointM);
+            return objectJson.Substring(0, objectJson.Length - 1) + ",\"hinge\":" + hinge + "}";
+        }
+
         static JsonText Begun(
             string id, string name, double[] positionM, double[] rotationXyzw, ICollection<string> materialNames)
         {

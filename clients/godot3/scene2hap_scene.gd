@@ -38,6 +38,20 @@ static func object_of(node, id, name, as_box = false, pieces = null):
 	return object
 
 
+# An object of `object_of`, held on another one by a hinge at a global point, such as
+# the `global_transform.origin` of a HingeJoint.
+static func hinged_on(object, other, at):
+	object["hinge"] = {"to": other["id"], "point_m": _own_point(object, at), "other_point_m": _own_point(other, at)}
+	return object
+
+
+static func _own_point(object, at):
+	var pose = object["pose"]
+	var origin = pose["position_m"]
+	var own = Transform(Basis(pose["rotation_xyzw"]), Vector3(origin[0], origin[1], origin[2])).affine_inverse()
+	return own.xform(at)
+
+
 # All visible MeshInstances at and below a node.
 static func mesh_instances(node):
 	var found = []

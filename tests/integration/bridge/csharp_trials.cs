@@ -380,7 +380,24 @@ public static class CSharpTrials
             GameObject mug = Made("Mug", room.transform, new[] { 0f, i, 0 }, new[] { 0f, 0, 0, 1 }, one);
             mug.tag = "Scene2Hap";
             GiveTetrahedron(mug);
+            mug.AddComponent<HingeJoint>(); // to the world
+            mug.AddComponent<HingeJoint>().connectedBody = room.AddComponent<Rigidbody>();
         }
+        GameObject kitchen = Made("Kitchen", null, new[] { 0.5f, 0, -1 }, new[] { 0, 0.6f, 0, 0.8f },
+            new[] { 0.5f, 0.5f, 0.5f });
+        GameObject door = Made("Door", kitchen.transform, new[] { 4.2f, 1, -0.01f }, new[] { 0f, 1, 0, 0 },
+            new[] { 0.6f, 1.6f, 0.08f });
+        GameObject cabinet = Made("Cabinet", kitchen.transform, new[] { 3f, 1, 0 }, new[] { 0f, 0, 0, 1 },
+            new[] { 0.6f, 1.6f, 1.6f });
+        foreach (GameObject made in new[] { door, cabinet })
+        {
+            made.tag = "Scene2Hap";
+            GiveTetrahedron(made);
+        }
+        HingeJoint joint = door.AddComponent<HingeJoint>();
+        joint.anchor = new Vector3(2, 0.5f, 0);
+        joint.connectedBody = Made("Body", cabinet.transform, new[] { 1f, 0, 0 }, new[] { 0f, 0, 0, 1 }, one)
+            .AddComponent<Rigidbody>();
         Scene2HapBehaviour behaviour = Behaviour("ws://127.0.0.1:1/");
         behaviour.SendMeshes = areMeshes;
         Console.WriteLine(behaviour.CollectScene());

@@ -22,6 +22,8 @@ import numpy as np
 import pytest
 
 from bridge_clients import start_server
+from hinged_doors import check_door
+from scene2hap import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.testing import check_bridge_client
 from scene2hap.testing.bridge_client import serving
@@ -40,6 +42,7 @@ pytestmark = pytest.mark.skipif(
     COMPILER is None or RUNTIME is None, reason="no C#; apt-get install --no-install-recommends mono-mcs (7 MB)"
 )
 
+DOOR = ("Kitchen/Door", "Kitchen/Cabinet")
 TOKEN = "a token that nobody else may read"
 
 
@@ -618,8 +621,8 @@ def test_unity_scene_equals_the_matrix_conversion(trial: Callable[..., list[str]
     text = trial("unity-scene", "meshes")
     assert text[1] == "none True"
     scene = json.loads(text[0])
-    assert [item["id"] for item in scene["objects"]] == ["Room/Wedge (1)", "Room#0/Mug#1", "Room#0/Mug#2"]
-    assert [item["name"] for item in scene["objects"]] == ["Wedge", "Mug", "Mug"]
+    assert [item["id"] for item in scene["objects"]] == ["Room/Wedge (1)", "Room#0/Mug#1", "Room#0/Mug#2", *DOOR]
+    assert [item["name"] for item in scene["objects"]] == ["Wedge", "Mug", "Mug", "Door", "Cabinet"]
     room = affine((0.5, 0, -1), (0, 0.6, 0, 0.8), (1, 1, 1))
     wedge = room @ affine((1, 2, 3), (0.48, 0.36, 0, 0.8), (2, 0.5, 1))
     part = wedge @ affine((0, 1, 0), (0, 0, 0.6, 0.8), (-1, 1, 1))
@@ -642,7 +645,7 @@ def test_unity_scene_equals_the_matrix_conversion(trial: Callable[..., list[str]
         a, b, c = written[piece].transpose(1, 0, 2)
         assert (a * np.cross(b, c)).sum() / 6 == pytest.approx(1 / 6, rel=1e-5)
     found = SceneSnapshot.from_json(text[0]).objects
-    assert [one.material_names for one in found] == [("Walnut", "Brass"), (), ()]  # the largest area first
+    assert [one.material_names for one in found] == [("Walnut", "Brass"), *4 * [()]]  # the largest area first
 
 
 def test_unity_boxes_enclose_their_meshes(trial: Callable[..., list[str]]) -> None:
@@ -665,6 +668,17 @@ def test_unity_boxes_enclose_their_meshes(trial: Callable[..., list[str]]) -> No
     middle = (own.max(axis=0) + own.min(axis=0)) / 2
     position = moved(room, np.array([turned @ middle + (1, 2, 3)]))[0]
     np.testing.assert_allclose(wedge["pose"]["position_m"], position * (-1, 1, 1), atol=1e-5)
+
+
+@pytest.mark.parametrize("geometry", ["meshes", "boxes"])
+def test_a_hinge_joint_of_unity_is_a_hinge(trial: Callable[..., list[str]], tmp_path: Path, geometry: str) -> None:
+    path = tmp_path / "scene.json"
+    path.write_text(trial("unity-scene", geometry)[0], encoding="utf-8")
+    scene = load_scene(path)
+    assert [one.id for one in scene.objects if one.hinge] == ["Kitchen/Door"]  # no mug
+    kitchen = affine((0.5, 0, -1), (0, 0.6, 0, 0.8), (0.5, 0.5, 0.5))
+    pivot = moved(kitchen, np.array([(3, 1.8, -0.01)]))[0]
+    check_door(scene, pivot * (-1, 1, 1), *DOOR)
 
 
 def test_the_unity_component_drives_both_controllers(trial: Callable[..., list[str]]) -> None:

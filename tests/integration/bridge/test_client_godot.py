@@ -23,7 +23,8 @@ import godot4_web
 from bridge_clients import hex_of_page, start_server
 from browser_page import NEEDS_CHROMIUM, chromium
 from godot4_web import NEEDS_GODOT4, find_engine
-from scene2hap import SceneSnapshot
+from hinged_doors import check_door
+from scene2hap import load_scene
 from scene2hap.bridge import BridgeServer
 from scene2hap.bridge.frames import Frame, Gains, decode_frame, encode_gains
 from scene2hap.testing.bridge_client import check_bridge_client
@@ -465,11 +466,14 @@ def test_the_client_for_godot_4_has_the_same_interface() -> None:
 # ---- Scenes ----
 
 
-def test_nodes_become_closed_meshes_and_boxes(godot: Godot) -> None:
+def test_nodes_become_closed_meshes_boxes_and_hinged_doors(godot: Godot, tmp_path: Path) -> None:
     said = godot.run(godot.driver, SCENARIO="scenes")
-    scene = SceneSnapshot.from_json(said[said.index('{"format"') :])
+    path = tmp_path / "scene.json"
+    path.write_text(said[said.index('{"format"') :], encoding="utf-8")
+    scene = load_scene(path)
     rotation = turned(0.3, 0.5, -0.2)
-    assert len(scene.objects) == 9
+    assert len(scene.objects) == 9 + 2
+    check_door(scene, np.array((4, 0, -1)) + turned(0, 0.7, 0) @ (-0.3, 0.5, 0.2))
     for name, scale in (("plain", (1, 1, 1)), ("scaled", (2, 1, 0.5)), ("mirrored", (-1, 1, 1))):
         size = np.abs(np.array(scale)) * (0.2, 0.4, 0.6)
         for suffix in ("", " box"):

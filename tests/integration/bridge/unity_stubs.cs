@@ -205,6 +205,17 @@ namespace UnityEngine
         public Mesh sharedMesh { get; set; }
     }
 
+    public sealed class Rigidbody : Component { }
+
+    /// <summary>Its anchor is in the local space of its Transform, with scale.</summary>
+    public class Joint : Component
+    {
+        public Rigidbody connectedBody { get; set; }
+        public Vector3 anchor { get; set; }
+    }
+
+    public sealed class HingeJoint : Joint { }
+
     public sealed class GameObject : Object
     {
         public static readonly List<GameObject> All = new List<GameObject>();

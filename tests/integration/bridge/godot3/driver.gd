@@ -291,8 +291,38 @@ func scenes():
 		objects.append(Scene.object_of(root, row[0], "Lamp"))
 		objects.append(Scene.object_of(root, row[0] + " box", "Lamp", true))
 		objects.append(Scene.object_of(root.get_child(1), row[0] + " centred", "Lamp", true))
+	objects += hinged()
 	print(Client.json_text(Scene.scene_of("test", objects)))
 	get_tree().quit()
+
+
+# A door whose origin is at its edge, on its cabinet, in a kitchen that is turned and scaled.
+func hinged():
+	var kitchen = Spatial.new()
+	add_child(kitchen)
+	kitchen.translation = Vector3(4, 0, -1)
+	kitchen.rotation = Vector3(0, 0.7, 0)
+	kitchen.scale = Vector3(0.5, 0.5, 0.5)
+	var objects = []
+	var rows = [
+		["cabinet", Vector3(1.2, 1.6, 0.8), Vector3(0, 1, 0)],
+		["door", Vector3(1.2, 1.6, 0.04), Vector3(0.6, 0, 0.02)],
+	]
+	for row in rows:
+		var root = Spatial.new()
+		kitchen.add_child(root)
+		if row[0] == "door":
+			root.translation = Vector3(-0.6, 1, 0.41)
+		var part = MeshInstance.new()
+		part.mesh = CubeMesh.new()
+		part.mesh.size = row[1]
+		part.translation = row[2]
+		root.add_child(part)
+		objects.append(Scene.object_of(root, row[0], row[0]))
+	var joint = HingeJoint.new()
+	kitchen.add_child(joint)
+	joint.translation = Vector3(-0.6, 1, 0.4)
+	return [objects[0], Scene.hinged_on(objects[1], objects[0], joint.global_transform.origin)]
 
 
 # The script of README.md, as res://level.gd.
