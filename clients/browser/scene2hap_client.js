@@ -22,6 +22,8 @@
  * @property {Geometry | string} geometry
  * @property {number} [mass_kg]
  * @property {string[]} [material_names] that of the largest area first
+ * @property {{to: string, point_m: number[], other_point_m: number[]}} [hinge] id of the object that holds it, and the
+ *   pivot in both frames
  */
 /**
  * @typedef {object} SceneJson docs/scene-json.md of scene2hap
@@ -801,14 +803,17 @@ export class Scene2HapClient extends EventTarget {
  * Write a three.js scene as scene JSON. Works by the shape of the objects, without importing three.js.
  *
  * Each visible Mesh becomes an object, unless `userData.scene2hap` of it or of what it is in says otherwise:
- * - `true`, or an object with `id`, `name`, `mass_kg` or `box`: this node and all below it is one object;
+ * - `true`, or an object with `id`, `name`, `mass_kg`, `box` or `hinge`: this node and all below it is one object;
  * - `false`: this node and all below it is left out.
  * A marked node below a marked node is an object of its own. `box: true` writes the bounding box instead of the mesh.
+ * `hinge: "cabinet"` holds the object on the one of this id, at the node's origin or at `point: [x, y, z]` in the
+ * node's frame.
  * World scale and mirroring go into the vertices. Poses and vertices are metres, as in WebXR.
  *
  * @param {any} root a Scene, Group or Mesh
  * @param {{name?: string, isObject?: (node: any) => boolean}} [options] `isObject` marks nodes, in place of userData
  * @returns {{scene: SceneJson, nodes: Map<string, any>}} `nodes` has the node of each id, for `poseOf`
+ * @throws {Scene2HapError} a hinge is to an id that no other object has
  */
 export function sceneFromThree(root, { name = root.name || "scene", isObject = () => false } = {}) {
   root.updateWorldMatrix(true, true);
@@ -816,6 +821,7 @@ export function sceneFromThree(root, { name = root.name || "scene", isObject = (
   collect(root, null, isObject, found);
   const nodes = new Map();
   const objects = [];
+  const hinged = [];
   for (const { node, mark, meshes } of found) {
     const pose = poseOf(node);
     const areas = new Map();
@@ -828,8 +834,10 @@ export function sceneFromThree(root, { name = root.name || "scene", isObject = (
     const row = { id, name: authored, pose: { position_m: pose.slice(0, 3), rotation_xyzw: pose.slice(3) }, geometry };
     if (mark.mass_kg !== undefined) row.mass_kg = mark.mass_kg;
     if (areas.size > 0) row.material_names = [...areas.keys()].sort((a, b) => areas.get(b) - areas.get(a));
+    if (mark.hinge !== undefined) hinged.push({ row, mark });
     objects.push(row);
   }
+  for (const { row, mark } of hinged) row.hinge = hingeOf(row.id, mark, nodes);
   return {
     scene: { format: "scene2hap/scene", version: 1, name, up_axis: "y", objects, geometries: shareCopies(objects) },
     nodes,
@@ -902,6 +910,17 @@ function collect(node, group, isObject, found) {
   }
   if (node.isMesh) owner.meshes.push(node);
   for (const child of node.children) collect(child, mark ? owner : group, isObject, found);
+}
+
+/** The hinge of an object whose mark names another one. */
+function hingeOf(id, { hinge: to, point = [0, 0, 0] }, nodes) {
+  if (to === id || !nodes.has(to)) {
+    const message = `The hinge of "${id}" is to "${to}", which is the id of no other object; give the id of one.`;
+    throw new Scene2HapError("SceneError", message);
+  }
+  const pivot = transform(nodes.get(id).matrixWorld.elements, point);
+  const [point_m, other_point_m] = [id, to].map((one) => intoFrame(poseOf(nodes.get(one)), pivot).map(micrometres));
+  return { to, point_m, other_point_m };
 }
 
 function unused(wanted, taken) {

@@ -144,6 +144,24 @@ test("unmarked groups only hold objects; marks within marks are objects; false a
   assert.equal(nodes.get("stove-1").name, "stove");
 });
 
+test("a hinge is at the node's origin or its point, whichever object comes first", () => {
+  const marked = (mark) => ({ userData: { scene2hap: mark } });
+  const { scene } = written(
+    mesh("door", TURNED, marked({ hinge: "cabinet" })),
+    mesh("cabinet", at(10, 20, 0)),
+    mesh("lid", TURNED, marked({ hinge: "cabinet", point: [1, 1, 1] })),
+  );
+  const [door, cabinet, lid] = scene.objects.map((one) => one.hinge);
+  assert.deepEqual(door, { to: "cabinet", point_m: [0, 0, 0], other_point_m: [0, 0, 30] });
+  assert.equal(cabinet, undefined);
+  assert.deepEqual(lid, { to: "cabinet", point_m: [2, 3, 4], other_point_m: [4, 3, 28] });
+  for (const to of ["cupboard", "door"]) {
+    assert.throws(() => written(mesh("door", TURNED, marked({ hinge: to }))), {
+      message: `The hinge of "door" is to "${to}", which is the id of no other object; give the id of one.`,
+    });
+  }
+});
+
 test("isObject marks in place of userData", () => {
   const fridge = node("fridge", IDENTITY, {}, [mesh("fridge_1", IDENTITY), mesh("fridge_2", IDENTITY)]);
   const root = node("", IDENTITY, {}, [fridge]);

@@ -27,7 +27,8 @@ from websockets.sync.client import connect
 
 import browser_page
 from browser_page import CLIENT, NEEDS_CHROMIUM, NEEDS_MODULES, address, wait_until
-from scene2hap import SceneSnapshot
+from hinged_doors import check_door
+from scene2hap import SceneSnapshot, load_scene
 from scene2hap.testing.bridge_client import ClientCheck, check_bridge_client, serving
 
 ROOT = CLIENT.parents[1]
@@ -90,6 +91,35 @@ def test_the_parts_in_node(node: str, modules: Path) -> None:
     counted = dict(re.findall(r"^# (pass|fail|skipped) (\d+)$", ended.stdout, re.M))
     n_written = sum(path.read_text().count("\ntest(") for path in (CLIENT / "tests").glob("*.test.js"))
     assert counted == {"pass": str(n_written), "fail": "0", "skipped": "0"}
+
+
+DOOR = """
+import { Group, BoxGeometry, Mesh, MeshBasicMaterial, Vector3 } from "THREE";
+import { sceneFromThree } from "CLIENT";
+const kitchen = new Group();
+kitchen.position.set(4, 0, -1);
+kitchen.rotation.y = 0.7;
+kitchen.scale.set(0.5, 0.5, -0.5);
+const cabinet = new Mesh(new BoxGeometry(1.2, 1.6, 0.8), new MeshBasicMaterial());
+cabinet.position.y = 1;
+cabinet.name = "cabinet";
+const door = new Group();
+const panel = new Mesh(new BoxGeometry(1.2, 1.6, 0.04), new MeshBasicMaterial());
+panel.position.set(0.6, 0, 0.02);
+door.position.set(-0.6, 1, 0.41);
+door.userData.scene2hap = { id: "door", hinge: "cabinet" };
+kitchen.add(door.add(panel), cabinet);
+const { scene } = sceneFromThree(kitchen);
+console.log(JSON.stringify({ scene, pivot_m: door.getWorldPosition(new Vector3()).toArray() }));
+"""
+
+
+def test_a_door_of_three_has_a_hinge(node: str, modules: Path, tmp_path: Path) -> None:
+    three, client = (modules / "three/build/three.module.js").as_uri(), (CLIENT / "scene2hap_client.js").as_uri()
+    (tmp_path / "door.mjs").write_text(DOOR.replace("THREE", three).replace("CLIENT", client), encoding="utf-8")
+    said = json.loads(subprocess.run([node, tmp_path / "door.mjs"], capture_output=True, text=True, check=True).stdout)
+    (tmp_path / "scene.json").write_text(json.dumps(said["scene"]), encoding="utf-8")
+    check_door(load_scene(tmp_path / "scene.json"), said["pivot_m"])
 
 
 def test_the_game_in_node(node: str) -> None:
