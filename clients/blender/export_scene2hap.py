@@ -93,7 +93,11 @@ class Thing:
         self.position_m = np.array(position) * unit_m
         self.rotation = rotation.normalized()
         self.to_own = np.linalg.inv(np.array(self.rotation.to_matrix()))
-        self.unit_m, self.pieces, self.bodies = unit_m, [], []
+        self.unit_m, self.pieces, self.bodies, self.hinge = unit_m, [], [], None
+
+    def in_own(self, points_m):
+        """World points in its frame."""
+        return (points_m - self.position_m) @ self.to_own.T
 
     def add(self, mesh, matrix, materials):
         """Add a piece: a mesh with the matrix that places it in the world."""
@@ -120,8 +124,7 @@ class Thing:
         faces, uv = faces.reshape(-1, 3), uv.reshape(-1, 3, 2)
         if np.linalg.det(world[:3, :3]) < 0:  # mirrored: keep what was outside outside
             faces, uv = faces[:, ::-1], uv[:, ::-1]
-        own_m = (placed_m - self.position_m) @ self.to_own.T
-        self.pieces.append((own_m, faces, uv, smooth[polygons], [materials[i] for i in rows[polygons]]))
+        self.pieces.append((self.in_own(placed_m), faces, uv, smooth[polygons], [materials[i] for i in rows[polygons]]))
 
     def finish(self):
         """Join the pieces."""
@@ -156,10 +159,14 @@ class Thing:
         return None if mass is None else mass * unit_kg
 
 
+def is_active(obj):
+    """Whether an object is an active rigid body, which moves by itself."""
+    return obj.rigid_body is not None and obj.rigid_body.type == "ACTIVE"
+
+
 def mass_of(obj):
     """The mass that somebody gave an object, in Blender's unit."""
-    body = obj.rigid_body
-    return None if body is None or body.type != "ACTIVE" or body.mass == DEFAULT_MASS else body.mass
+    return obj.rigid_body.mass if is_active(obj) and obj.rigid_body.mass != DEFAULT_MASS else None
 
 
 def read_scene(bpy):
@@ -198,7 +205,26 @@ def read_scene(bpy):
         while thing.id in used:
             thing.id += "'"
         used.add(thing.id)
+    add_hinges(scene, depsgraph, {thing.owner: thing for thing in found})
     return found
+
+
+def add_hinges(scene, depsgraph, things):
+    """Give hinges to things by rigid body constraints of the type Hinge.
+
+    An active body is held on a passive one, else the second object on the first.
+    """
+    for obj in scene.objects:
+        joint = obj.rigid_body_constraint
+        if joint is None or joint.type != "HINGE" or not joint.enabled or None in (joint.object1, joint.object2):
+            continue
+        bodies = sorted((joint.object1, joint.object2), key=is_active)
+        other, held = (things.get(owner_of(body)) for body in bodies)
+        if other is None or held is None or other is held or held.hinge is not None:
+            continue
+        at_m = np.array(obj.evaluated_get(depsgraph).matrix_world.translation) * held.unit_m
+        points = {"point_m": held.in_own(at_m).tolist(), "other_point_m": other.in_own(at_m).tolist()}
+        held.hinge = {"to": other.id, **points}
 
 
 def max_index(mesh):
@@ -229,8 +255,8 @@ def scene_json(name, things, unit_kg):
         pose = {"position_m": thing.position_m.tolist(), "rotation_xyzw": [x, y, z, w]}
         row = {"id": thing.id, "name": thing.name, "pose": pose, "geometry": thing.key, "instance_key": thing.key}
         row["material_names"] = thing.material_names()
-        mass = thing.mass_kg(unit_kg)
-        objects.append(row if mass is None else {**row, "mass_kg": mass})
+        more = {"mass_kg": thing.mass_kg(unit_kg), "hinge": thing.hinge}
+        objects.append(row | {key: value for key, value in more.items() if value is not None})
     head = {"format": "scene2hap/scene", "version": 1, "name": name, "up_axis": "z"}
     return {**head, "objects": objects, "geometries": geometries}
 

@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from hinged_doors import check_door
 from scene2hap import SceneObject, SceneSnapshot, load_scene
 from scene2hap.scene.capture.given_pictures import GivenPictures
 
@@ -100,6 +101,18 @@ vase["scene2hap"] = "object"
 add("Gizmo", CUBE, (0, 0, 500), (100, 100, 100))["scene2hap"] = "skip"
 add("Cutter", CUBE, (0, 0, 0), (900, 900, 900)).display_type = "WIRE"
 add("Hidden", CUBE, (0, 0, 600), (9, 9, 9)).hide_render = True
+bedroom = add("Bedroom", None, (400, 0, 0), (0.5, 0.5, 0.5), turn=90)
+bedroom["scene2hap"] = "group"
+wardrobe_door = add("Wardrobe door", CUBE, (0, -33, 200), (120, 4, 400), bedroom)
+wardrobe = add("Wardrobe", CUBE, (0, 0, 200), (120, 60, 400), bedroom)
+bpy.context.view_layer.objects.active = wardrobe_door
+bpy.ops.rigidbody.object_add()
+bpy.context.view_layer.objects.active = wardrobe
+bpy.ops.rigidbody.object_add(type="PASSIVE")
+bpy.context.view_layer.objects.active = add("pivot", None, (-60, -31, 200), parent=bedroom)
+bpy.ops.rigidbody.constraint_add(type="HINGE")
+joint = bpy.context.object.rigid_body_constraint
+joint.object1, joint.object2 = wardrobe_door, wardrobe
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
 """
 )
@@ -119,6 +132,8 @@ EXPECTED = {
     "Cabinet": ((0, 5.0, 0.4), (0.6, 0.416, 0.8), 0.6 * 0.4 * 0.8 + 0.6 * 0.016 * 0.8),
     "Vase": ((0, 5.0, 0.9), (0.15, 0.1, 0.2), 0.15 * 0.1 * 0.2),
     "Towel ribbon": ((0, 0, 1.5), (0.4, 0, 0.1), 0),
+    "Wardrobe": ((4.0, 0, 1.0), (0.3, 0.6, 2.0), 0.3 * 0.6 * 2.0),
+    "Wardrobe door": ((4.165, 0, 1.0), (0.02, 0.6, 2.0), 0.02 * 0.6 * 2.0),
 }
 
 
@@ -172,7 +187,7 @@ def test_json_names_the_materials_of_an_object() -> None:
     thing.vertices_m, thing.position_m = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 2.0]]), np.zeros(3)
     thing.faces, thing.face_material = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2]]), [steel, oak, None]
     body = SimpleNamespace(rigid_body=None)
-    thing.rotation, thing.owner, thing.bodies = (1, 0, 0, 0), body, [body]
+    thing.rotation, thing.owner, thing.bodies, thing.hinge = (1, 0, 0, 0), body, [body], None
     found = SceneSnapshot.from_json(json.dumps(script.scene_json("room", [thing], 1.0)))
     assert found.object("table").material_names == ("Oak", "Steel")
 
@@ -217,6 +232,14 @@ def test_mass_is_read_from_configured_rigid_bodies(scenes: tuple[SceneSnapshot, 
     assert {item.id: item.mass_kg for item in scenes[0].objects if item.mass_kg is not None} == {
         "Table": pytest.approx(12.0)
     }
+
+
+@needs_bpy
+def test_a_rigid_body_hinge_holds_the_active_body_on_the_passive_one(
+    scenes: tuple[SceneSnapshot, SceneSnapshot],
+) -> None:
+    assert [item.id for item in scenes[0].objects if item.hinge] == ["Wardrobe door"]
+    check_door(scenes[0], (4.155, -0.3, 1.0), "Wardrobe door", "Wardrobe")
 
 
 @needs_bpy
