@@ -214,9 +214,12 @@ def add_hinges(scene, depsgraph, things):
 
     An active body is held on a passive one, else the second object on the first.
     """
+    evaluated = {one.original for one in depsgraph.ids}  # the matrix of what is disabled in viewports is not computed
     for obj in scene.objects:
         joint = obj.rigid_body_constraint
-        if joint is None or joint.type != "HINGE" or not joint.enabled or None in (joint.object1, joint.object2):
+        if joint is None or joint.type != "HINGE" or not joint.enabled or obj not in evaluated:
+            continue
+        if joint.object1 is None or joint.object2 is None:
             continue
         bodies = sorted((joint.object1, joint.object2), key=is_active)
         other, held = (things.get(owner_of(body)) for body in bodies)

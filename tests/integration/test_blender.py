@@ -109,10 +109,12 @@ bpy.context.view_layer.objects.active = wardrobe_door
 bpy.ops.rigidbody.object_add()
 bpy.context.view_layer.objects.active = wardrobe
 bpy.ops.rigidbody.object_add(type="PASSIVE")
-bpy.context.view_layer.objects.active = add("pivot", None, (-60, -31, 200), parent=bedroom)
-bpy.ops.rigidbody.constraint_add(type="HINGE")
-joint = bpy.context.object.rigid_body_constraint
-joint.object1, joint.object2 = wardrobe_door, wardrobe
+for name, x in (("disabled pivot", 60), ("pivot", -60)):
+    bpy.context.view_layer.objects.active = pivot = add(name, None, (x, -31, 200), parent=bedroom)
+    bpy.ops.rigidbody.constraint_add(type="HINGE")
+    pivot.rigid_body_constraint.object1, pivot.rigid_body_constraint.object2 = wardrobe_door, wardrobe
+    pivot.hide_viewport = name == "disabled pivot"
+    pivot.hide_set(True)
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
 """
 )

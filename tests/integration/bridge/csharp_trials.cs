@@ -448,7 +448,9 @@ public static class CSharpTrials
             {
                 isAdded = true;
                 Say("removed");
-                behaviour.Track(Box("Glass", -0.2f, 0.765f, 0.1f, 0.06f, 0.09f, 0.06f));
+                GameObject glass = Box("Glass", -0.2f, 0.765f, 0.1f, 0.06f, 0.09f, 0.06f);
+                glass.AddComponent<HingeJoint>().connectedBody = table.AddComponent<Rigidbody>();
+                behaviour.Track(glass);
             }
             else if (isAdded && !isOver && behaviour.Client.ObjectIndex("Glass") >= 0
                 && behaviour.Client.MovingCount == 3)
