@@ -23,7 +23,7 @@ import pytest
 
 from bridge_clients import start_server
 from hinged_doors import check_door
-from scene2hap import load_scene
+from scene2hap import HapticSession, SceneObject, load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.testing import check_bridge_client
 from scene2hap.testing.bridge_client import serving
@@ -681,13 +681,23 @@ def test_a_hinge_joint_of_unity_is_a_hinge(trial: Callable[..., list[str]], tmp_
     check_door(scene, pivot * (-1, 1, 1), *DOOR)
 
 
-def test_the_unity_component_drives_both_controllers(trial: Callable[..., list[str]]) -> None:
+def test_the_unity_component_drives_both_controllers(
+    trial: Callable[..., list[str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    added: list[SceneObject] = []
+    add = HapticSession.add
+    monkeypatch.setattr(HapticSession, "add", lambda session, item: (added.append(item), add(session, item)))
     with serving(token=TOKEN) as server:
         lines = trial("unity-play", server.url, token=TOKEN)
     assert lines[:2] == ["tracked True", "untracked False"]
     left, right = [float(word) for word in lines[2].split()[1:]]
     assert 0 < left < right <= 1  # the right hand holds the phone, the left hand touches the table 10 cm beside it
     assert lines[3:7] == ["removed", "added", "lifted True", "held True"]
+    (hinge,) = [one.hinge for one in added]
+    assert hinge is not None
+    assert hinge.to == "Wooden table"
+    assert hinge.point_m == pytest.approx((0, 0, 0), abs=1e-6)
+    assert hinge.other_point_m == pytest.approx((0.2, 0.065, 0.1))
     assert not [line for line in lines if line.startswith("logged error")]
 
 
