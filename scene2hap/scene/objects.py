@@ -180,9 +180,10 @@ class SceneObject:
         materials = checks.texts(f"material_names of object {self.id!r}", self.material_names, error=SceneError)
         object.__setattr__(self, "material_names", materials)
         if self.hinge is not None and (not isinstance(self.hinge, Hinge) or self.hinge.to == self.id):
+            given = "to itself" if isinstance(self.hinge, Hinge) else checks.described(self.hinge)
             raise SceneError(
-                f"hinge of object {checks.represented(self.id)} is {checks.described(self.hinge)}; it must be a "
-                "Hinge(to, point_m, other_point_m) to another object."
+                f"hinge of object {checks.represented(self.id)} is {given}; it must be a Hinge(to, point_m, "
+                "other_point_m) to another object."
             )
         if self.mass_kg is not None:
             named = f"mass_kg of object {checks.represented(self.id)}"
