@@ -201,9 +201,7 @@ def test_bad_hinges_are_refused() -> None:
         "id of the other object": lambda: Hinge("", (0, 0, 0), (0, 0, 0)),
         "point_m": lambda: Hinge("a", (0, 0), (0, 0, 0)),  # type: ignore[arg-type]
         "other_point_m": lambda: Hinge("a", (0, 0, 0), (0, float("nan"), 0)),
-        "is to itself; it must be a Hinge": lambda: SceneObject(
-            "a", geometry=Box((1, 1, 1)), hinge=Hinge("a", (0, 0, 0), (0, 0, 0))
-        ),
+        "is to itself": lambda: SceneObject("a", geometry=Box((1, 1, 1)), hinge=Hinge("a", (0, 0, 0), (0, 0, 0))),
         "must be a Hinge": lambda: SceneObject("a", geometry=Box((1, 1, 1)), hinge="b"),  # type: ignore[arg-type]
     }.items():
         with pytest.raises(SceneError, match=words):
