@@ -1,6 +1,8 @@
 """The safety layer: signals that pass unchanged, and limits that no output exceeds."""
 
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -254,6 +256,16 @@ def test_power_guard_settles_and_passes_power_within_the_limits() -> None:
         SafetyLayer(ActuatorProfile(), RATE, 1).process(sine(100.0, 3.0, amplitude)),
     )
     assert quiet.stats.power_limited == 0
+
+
+def test_power_guard_takes_as_much_of_a_mix_at_its_limit_as_the_documentation_says() -> None:
+    """Of V = 0.8 W the guard needs 0.3 V for its gain: g^2 = V / (0.3 V + W) in the long run."""
+    layer = SafetyLayer(ActuatorProfile(max_rms=0.2), RATE, 1)
+    y = layer.process(sine(100.0, 20.0, 0.2 * math.sqrt(2)))[-RATE:, 0].astype(np.float64)
+    page = (Path(__file__).parents[3] / "docs/actuators.md").read_text(encoding="utf-8")
+    stated = re.search(r"(-[\d.]+) dB at most in the long run", page)
+    assert stated
+    assert 20 * math.log10(math.sqrt(np.mean(y**2)) / 0.2) == pytest.approx(float(stated[1]), abs=0.05)
 
 
 class Clock:
