@@ -16,6 +16,7 @@ from itertools import product
 import numpy as np
 
 from scene2hap.contact.body import Body
+from scene2hap.contact.geometry.boxes import Boxes
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.scene.geometry import Vector
@@ -46,11 +47,13 @@ def edge_that_meets(item: SceneObject, holder: SceneObject, way: Sequence[tuple[
     axis, end = max(product(range(3), (0, 1)), key=lambda side: travels_m[_ENDS[:, side[0]] == side[1]].sum())
     far = np.where(np.arange(3) == axis, (low, high)[end], (low + high) / 2)
     middle, sizes_m = (far + (low + high) / 2) / 2, np.where(np.arange(3) == axis, 0.5, 1.0) * (high - low)
-    half, on, at = _box(tuple(sizes_m.tolist())), shape_of(holder.geometry.mesh), Pose(tuple(middle))
+    half, at = _box(tuple(sizes_m.tolist())), Pose(tuple(middle))
     begin, before, now = (pose.compose(at) for pose in (begin, before, now))
     # Steps as long as the play cannot pass through the holder.
     shares = np.linspace(0, 1, 1 + math.ceil(travels_m.max() / HINGE_PLAY_M))
-    if _meet(half, begin, on) or not any(_meet(half, _onward(before, now, share), on) for share in shares):
+    first, *onward = (Body("", half, pose, 1) for pose in (begin, *(_onward(before, now, share) for share in shares)))
+    on = _near(shape_of(holder.geometry.mesh), [first, *onward])
+    if on is None or _meet(first, on) or not any(_meet(one, on) for one in onward):
         return None
     x, y, z = far.tolist()
     return x, y, z
@@ -61,10 +64,22 @@ def _box(sizes_m: Vector) -> Shape:
     return shape_of(Box(sizes_m).mesh)
 
 
-def _meet(half: Shape, pose: Pose, on: Shape) -> bool:
-    """Whether two shapes, the first at a pose in the frame of the second, are within the play of hinges."""
-    pair = MeshPair(Body("", half, pose, 1), Body("", on, Pose(), 1))
-    return pair.gap(HINGE_PLAY_M) is not None
+def _near(shape: Shape, bodies: Sequence[Body]) -> Body | None:
+    """Return a shape without the triangles that are clear of all bodies, None if none is left."""
+    low, high = np.min([one.low for one in bodies], axis=0), np.max([one.high for one in bodies], axis=0)
+    columns = shape.boxes.meeting(Boxes(low[:, None], high[:, None]).grown(HINGE_PLAY_M))
+    if not len(columns):
+        return None
+    # With contacts of an engine no search tree is ready. That of a detailed mesh would delay a frame; one of at most
+    # twice as many triangles is rather kept.
+    if not shape.is_prepared and 2 * len(columns) < shape.triangles.shape[2]:
+        triangles = shape.triangles[:, :, columns]
+        shape = Shape(triangles, triangles.reshape(3, -1).T)
+    return Body("", shape, Pose(), 1)
+
+
+def _meet(one: Body, other: Body) -> bool:
+    return MeshPair(one, other).gap(HINGE_PLAY_M) is not None
 
 
 def _seen_from(holder: Pose, pose: Pose) -> Pose:

@@ -171,3 +171,11 @@ def test_the_links_of_a_robot_that_stop_strike_nothing() -> None:
             session.update(poses(angle), [Touch("left", "robot base", (0.0, 0.1, 0.1))])
             session.render_s(1 / 90)
     assert session.stats.impacts == 0
+
+
+def test_a_door_slams_at_the_middle_of_its_edge_also_if_its_hinge_is_given_at_the_bottom() -> None:
+    door = SceneObject("cabinet door", pose=door_pose(0.0), geometry=Box((WIDTH_M, 1.9, THICK_M)))
+    scene = SceneSnapshot.build([CABINET, door.hinged_on(CABINET, (PIVOT_M[0], 0.1, FRONT_M))])
+    (slam,) = impacts_of(HapticSession(scene, bake(scene)), pushed(3.0))
+    assert slam.point_m == pytest.approx((-0.3, 1.0, FRONT_M), abs=2 * THICK_M)
+    assert slam.speed_m_s == pytest.approx(3.0 * WIDTH_M, rel=0.25)
