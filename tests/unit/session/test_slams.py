@@ -8,8 +8,11 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+import trimesh
 
 from scene2hap import Box, HapticSession, Impact, Pose, SceneObject, SceneSnapshot, Touch, TriMesh, bake
+from scene2hap.contact.shape import shape_of
+from scene2hap.session.impacts.slams import edge_that_meets
 
 WIDTH_M, THICK_M = 0.6, 0.02
 FRONT_M = 0.2
@@ -179,3 +182,15 @@ def test_a_door_slams_at_the_middle_of_its_edge_also_if_its_hinge_is_given_at_th
     (slam,) = impacts_of(HapticSession(scene, bake(scene)), pushed(3.0))
     assert slam.point_m == pytest.approx((-0.3, 1.0, FRONT_M), abs=2 * THICK_M)
     assert slam.speed_m_s == pytest.approx(3.0 * WIDTH_M, rel=0.25)
+
+
+def test_a_slam_on_a_detailed_mesh_builds_no_search_tree_of_it() -> None:
+    """That of 3,072 triangles takes longer than a frame, and none is prepared with contacts of an engine."""
+    fine = trimesh.creation.box((WIDTH_M, 2.0, 2 * FRONT_M)).subdivide().subdivide().subdivide().subdivide()
+    mesh = TriMesh(fine.vertices, fine.faces)
+    cabinet = dataclasses.replace(CABINET, geometry=mesh)
+    door = SceneObject("cabinet door", pose=door_pose(0.0), geometry=Box((WIDTH_M, 1.9, THICK_M)))
+    way = [(door_pose(angle), cabinet.pose) for angle in (0.5, 0.1, 0.03)]
+    shape = shape_of(mesh)
+    assert edge_that_meets(door.hinged_on(cabinet, PIVOT_M), cabinet, way) is not None
+    assert "tree" not in vars(shape)
