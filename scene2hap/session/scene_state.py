@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import NamedTuple, TypeVar
-
-import numpy as np
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.contact.graph import ContactChange, ContactGraph
@@ -15,11 +12,11 @@ from scene2hap.errors import UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.propagation.protocol import Body, ContactNetwork
 from scene2hap.scene.geometry import Vector
-from scene2hap.scene.hinges import HINGE_PLAY_M
 from scene2hap.scene.objects import Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import RemovedIds
+from scene2hap.session.impacts.slams import edge_that_meets
 from scene2hap.session.network import Corners, PlatePoses, body_of, rigid_body_of
 from scene2hap.session.reach import Reach, reach_over
 
@@ -106,22 +103,10 @@ class SceneState:
         x, y, z = self.objects[object_id].geometry.mesh.bounds_m.mean(axis=0).tolist()
         return x, y, z
 
-    def closed_at(self, object_id: str, on: str, within_m: float) -> Vector | None:
-        """The edge of a door or lid far from its hinge on another object [m], world, if it is within a distance [m] of
-        that object."""
-        item, holder = self.objects[object_id], self.objects.get(on)
-        hinge = item.hinge
-        if hinge is None or hinge.to != on or holder is None:
-            return None
-        box, (low, high) = item.geometry.mesh.bounds_m, holder.geometry.mesh.bounds_m
-        pose, holder_pose = self.graph.pose(object_id), self.graph.pose(on)
-        pivot, edge = pose.to_world([hinge.point_m, box.sum(axis=0) - hinge.point_m])
-        ((x, y, z),) = holder_pose.to_own([edge])
-        off_m = max(low[0] - x, x - high[0], low[1] - y, y - high[1], low[2] - z, z - high[2])
-        # The edge of a closed door in front of its cabinet is off the cabinet by the thickness of the door at most.
-        closed_m = float(np.ptp(box, axis=0).min()) + HINGE_PLAY_M
-        is_held = math.dist(pivot, holder_pose.to_world([hinge.other_point_m])[0]) < HINGE_PLAY_M
-        return tuple(edge.tolist()) if is_held and off_m <= closed_m + within_m else None
+    def edge_that_meets(self, object_id: str, on: str, way: Sequence[tuple[Pose, Pose]]) -> Vector | None:
+        """See `slams.edge_that_meets`."""
+        holder = self.objects.get(on)
+        return None if holder is None else edge_that_meets(self.objects[object_id], holder, way)
 
     def on_plate(self, object_id: str, point_m: tuple[float, float, float]) -> tuple[float, float] | None:
         """Coordinates of a world point [m] along length and width of an object's plate; None without a plate."""

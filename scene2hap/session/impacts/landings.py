@@ -8,7 +8,7 @@ of the step before, in length and in speed. These motions are no landings:
 - an object that slides: most of its travel is across the contact's normal;
 - an object that rolls: its rim comes down on the floor, while its middle keeps its distance.
 
-A hinge is the only contact of a door with its cabinet. There the edge far from the hinge is what meets the cabinet.
+A hinge is the only contact of a door with its cabinet. What meets the cabinet is its far edge (`slams`).
 """
 
 from __future__ import annotations
@@ -67,19 +67,19 @@ class Landings:
     """Follows moving objects, and finds those that land.
 
     Parameters: graph : the contacts, read at each `look`; middle_m : the middle of an object's box, in its own frame
-    [m]; closed_at : the point [m], world, at which an object that a hinge holds on another is closed against it, within
-    a distance [m]; None if it is open or has no such hinge; period_s : usual time between updates, for a clock that
-    stands still.
+    [m]; edge_that_meets : of an object that a hinge holds on another, see `slams`; period_s : usual time between
+    updates, for a clock that stands still.
     """
 
     def __init__(
         self,
         graph: ContactGraph,
         middle_m: Callable[[str], Vector],
-        closed_at: Callable[[str, str, float], Vector | None],
+        edge_that_meets: Callable[[str, str, Sequence[tuple[Pose, Pose]]], Vector | None],
         period_s: float,
     ) -> None:
-        self._graph, self._middle_m, self._closed_at, self._period_s = graph, middle_m, closed_at, period_s
+        self._graph, self._middle_m, self._edge_that_meets = graph, middle_m, edge_that_meets
+        self._period_s = period_s
         self._tracks: dict[str, MotionTrack] = {}
         self._near: dict[str, dict[str, Junction]] = {}
         """Contacts of each moving object before the present step, and in all of its updates but the last."""
@@ -210,9 +210,7 @@ class Landings:
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
         beside, met = self._graph.beside.get(object_id, _NOTHING), self._met(object_id)
-        # A door that bounces is a step away by now; its edge moves twice as far as its middle.
-        within_m = 2 * math.hypot(*track.step_m)
-        edges = {x: edge for x in met if (edge := self._closed_at(object_id, x, within_m)) is not None}
+        edges = {x: edge for x in met if (edge := self._edge(object_id, track, x)) is not None}
         # The graph's order depends on the hashes of ids, which differ in each run of Python. Present contacts first,
         # and before hinges those that show where the two meet.
         others = sorted(met, key=lambda x: (x not in beside, x in edges, x))
@@ -243,6 +241,16 @@ class Landings:
         # The chord of a fast turn is no measure of its speed: the bottom of a spinning ball was lately its top.
         speed = ((most_m - turned_m) / n_updates + turns_m / (last - before)) / period_s
         return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
+
+    def _edge(self, object_id: str, track: MotionTrack, other: str) -> Vector | None:
+        """The point [m], world, at which a door or lid met what a hinge holds it on; None if it did not."""
+        theirs, its = self._tracks.get(other), self._graph.pose(other)
+        (before, *_), (last, *_) = track.steps[-2:]
+        begin = max(track.since, track.steps[0][0], theirs.steps[0][0] if theirs is not None else 0)
+        updates = (begin, before, last)
+        way = [(track.pose_at(x), theirs.pose_at(x) if theirs is not None else its) for x in updates]
+        edge = self._edge_that_meets(object_id, other, way)
+        return None if edge is None else in_world(edge, self._graph.pose(object_id))
 
     def _stops_suddenly(
         self, object_id: str, other: str, point_m: Vector, normal: Vector, run: list[tuple[int, float]]

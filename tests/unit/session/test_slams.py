@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable
 
+import numpy as np
 import pytest
+import trimesh
 
-from scene2hap import Box, HapticSession, Impact, Pose, SceneObject, SceneSnapshot, Touch, bake
+from scene2hap import Box, HapticSession, Impact, Pose, SceneObject, SceneSnapshot, Touch, TriMesh, bake
+from scene2hap.contact.shape import shape_of
+from scene2hap.session.impacts.slams import edge_that_meets
 
 WIDTH_M, THICK_M = 0.6, 0.02
 FRONT_M = 0.2
@@ -22,9 +27,11 @@ def door_pose(angle: float) -> Pose:
     return Pose.from_yaw(PIVOT_M, angle).compose(Pose((-WIDTH_M / 2, 0.0, THICK_M / 2)))
 
 
-def hinged(*more: SceneObject) -> HapticSession:
+CABINET = SceneObject("cabinet", pose=Pose((0.0, 1.0, 0.0)), geometry=Box((WIDTH_M, 2.0, 2 * FRONT_M)))
+
+
+def hinged(*more: SceneObject, cabinet: SceneObject = CABINET) -> HapticSession:
     floor = SceneObject("floor", pose=Pose((0.0, -0.05, 0.0)), geometry=Box((4.0, 0.1, 4.0)))
-    cabinet = SceneObject("cabinet", pose=Pose((0.0, 1.0, 0.0)), geometry=Box((WIDTH_M, 2.0, 2 * FRONT_M)))
     door = SceneObject("cabinet door", pose=door_pose(0.0), geometry=Box((WIDTH_M, 1.9, THICK_M)))
     scene = SceneSnapshot.build([floor, cabinet, door.hinged_on(cabinet, PIVOT_M), *more])
     return HapticSession(scene, bake(scene))
@@ -115,3 +122,75 @@ def test_a_door_strikes_a_seal_before_its_cabinet() -> None:
     closed = math.asin(0.01 / (WIDTH_M - 0.04))
     (slam,) = impacts_of(hinged(seal), lambda time_s: max(closed, pushed(3.0)(time_s)), touched="wooden frame")
     assert slam.object_id == "wooden frame"
+
+
+def turned_mesh(size_m: tuple[float, float, float], angle: float) -> TriMesh:
+    """A box whose own frame is turned against its sides, as meshes in the coordinates of a room are."""
+    mesh = Box(size_m).mesh
+    return TriMesh(Pose.from_yaw((0.0, 0.0, 0.0), angle).to_world(mesh.vertices_m), mesh.faces)
+
+
+@pytest.mark.parametrize(("angles", "n_slams"), [(pushed(3.0), 1), (SOFT["stopped when it is open"], 0)])
+@pytest.mark.parametrize("axis_deg", [0, 45])
+def test_a_cabinet_counts_by_its_shape_and_not_by_the_box_around_it(
+    angles: Angles, n_slams: int, axis_deg: float
+) -> None:
+    """A canopy reaches as far to the front as the open door: the box around both is no cabinet."""
+    turn = math.radians(axis_deg)
+    cabinet = turned_mesh((WIDTH_M, 2.0, 2 * FRONT_M), turn)
+    shelf = Pose.from_yaw((0.0, 0.0, 0.0), turn).to_world(
+        Box((WIDTH_M, 0.05, 1.4)).mesh.vertices_m + np.array([0.0, 1.1, 0.5])
+    )
+    faces = np.concatenate([cabinet.faces, Box((1, 1, 1)).mesh.faces + len(cabinet.vertices_m)])
+    mesh = TriMesh(np.concatenate([cabinet.vertices_m, shelf]), faces)
+    session = hinged(cabinet=SceneObject("cabinet", pose=Pose.from_yaw((0.0, 1.0, 0.0), -turn), geometry=mesh))
+    impacts_of(session, angles)
+    assert session.stats.impacts == n_slams
+
+
+def test_the_links_of_a_robot_that_stop_strike_nothing() -> None:
+    """Thick links lie close to each other, and every joint of a position-controlled arm stops within a frame."""
+    base = SceneObject("robot base", pose=Pose((0.0, 0.1, 0.0)), geometry=Box((0.2, 0.2, 0.2)))
+    links = [SceneObject(f"link {k}", geometry=Box((0.12, 0.3, 0.12))) for k in range(3)]
+
+    def poses(angle: float) -> dict[str, Pose]:
+        found, end = {}, Pose((0.0, 0.2, 0.0))
+        for link in links:
+            joint = end.compose(Pose.from_euler((0.0, 0.0, 0.0), (angle, 0.0, 0.0)))
+            found[link.id], end = joint.compose(Pose((0.0, 0.12, 0.0))), joint.compose(Pose((0.0, 0.24, 0.0)))
+        return found
+
+    joints_m = [(0.0, 0.2 + 0.24 * k, 0.0) for k in range(3)]
+    posed = [dataclasses.replace(link, pose=poses(0.0)[link.id]) for link in links]
+    before = [base, *posed]
+    arm = [link.hinged_on(on, point) for link, on, point in zip(posed, before, joints_m, strict=False)]
+    scene = SceneSnapshot.build([base, *arm])
+    session = HapticSession(scene, bake(scene))
+    angle = 0.0
+    for k, goal in enumerate([0.9, 0.2, 1.2, 0.0, -1.0, 0.5, -0.3, 1.1]):
+        start = angle
+        for frame in range(36):
+            angle = start + (goal - start) * min(1.0, frame / (20 + k))
+            session.update(poses(angle), [Touch("left", "robot base", (0.0, 0.1, 0.1))])
+            session.render_s(1 / 90)
+    assert session.stats.impacts == 0
+
+
+def test_a_door_slams_at_the_middle_of_its_edge_also_if_its_hinge_is_given_at_the_bottom() -> None:
+    door = SceneObject("cabinet door", pose=door_pose(0.0), geometry=Box((WIDTH_M, 1.9, THICK_M)))
+    scene = SceneSnapshot.build([CABINET, door.hinged_on(CABINET, (PIVOT_M[0], 0.1, FRONT_M))])
+    (slam,) = impacts_of(HapticSession(scene, bake(scene)), pushed(3.0))
+    assert slam.point_m == pytest.approx((-0.3, 1.0, FRONT_M), abs=2 * THICK_M)
+    assert slam.speed_m_s == pytest.approx(3.0 * WIDTH_M, rel=0.25)
+
+
+def test_a_slam_on_a_detailed_mesh_builds_no_search_tree_of_it() -> None:
+    """That of 3,072 triangles takes longer than a frame, and none is prepared with contacts of an engine."""
+    fine = trimesh.creation.box((WIDTH_M, 2.0, 2 * FRONT_M)).subdivide().subdivide().subdivide().subdivide()
+    mesh = TriMesh(fine.vertices, fine.faces)
+    cabinet = dataclasses.replace(CABINET, geometry=mesh)
+    door = SceneObject("cabinet door", pose=door_pose(0.0), geometry=Box((WIDTH_M, 1.9, THICK_M)))
+    way = [(door_pose(angle), cabinet.pose) for angle in (0.5, 0.1, 0.03)]
+    shape = shape_of(mesh)
+    assert edge_that_meets(door.hinged_on(cabinet, PIVOT_M), cabinet, way) is not None
+    assert "tree" not in vars(shape)

@@ -1,0 +1,97 @@
+"""Find what a door or a lid slams against: the object that a hinge holds it on lies in the way of its far half.
+
+The contact at a hinge does not show where the two meet. A door has met what it hangs on if the half of its box far from
+its axis was clear of it when the motion began, and would pass through it with one more step like the last.
+
+Links of a robot are near each other all the time. So nothing slams against an object that is itself held by a hinge.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+from itertools import product
+
+import numpy as np
+
+from scene2hap.contact.body import Body
+from scene2hap.contact.geometry.boxes import Boxes
+from scene2hap.contact.mesh_distance import MeshPair
+from scene2hap.contact.shape import Shape, shape_of
+from scene2hap.scene.geometry import Vector
+from scene2hap.scene.hinges import HINGE_PLAY_M
+from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.shapes import Box
+
+_ENDS = np.array(list(product((0, 1), repeat=3)))
+"""The end of a box along each axis at which each of its corners is."""
+
+
+def edge_that_meets(item: SceneObject, holder: SceneObject, way: Sequence[tuple[Pose, Pose]]) -> Vector | None:
+    """Return the middle of the far side of a door or lid [m], in its own frame, if what its hinge holds it on is in its
+    way; None if it has no such hinge.
+
+    Parameters: way : poses of the object and its holder at the begin of the motion, a step ago, and now.
+    """
+    hinge = item.hinge
+    if hinge is None or hinge.to != holder.id or holder.hinge is not None:
+        return None
+    begin, before, now = (_seen_from(its, pose) for pose, its in way)
+    if math.dist(now.to_world([hinge.point_m])[0], hinge.other_point_m) >= HINGE_PLAY_M:
+        return None
+    low, high = item.geometry.mesh.bounds_m
+    corners_m = np.where(_ENDS, high, low)
+    travels_m = np.linalg.norm(now.to_world(corners_m) - before.to_world(corners_m), axis=1)
+    axis, end = max(product(range(3), (0, 1)), key=lambda side: travels_m[_ENDS[:, side[0]] == side[1]].sum())
+    far = np.where(np.arange(3) == axis, (low, high)[end], (low + high) / 2)
+    middle, sizes_m = (far + (low + high) / 2) / 2, np.where(np.arange(3) == axis, 0.5, 1.0) * (high - low)
+    half, at = _box(tuple(sizes_m.tolist())), Pose(tuple(middle))
+    begin, before, now = (pose.compose(at) for pose in (begin, before, now))
+    # Steps as long as the play cannot pass through the holder.
+    shares = np.linspace(0, 1, 1 + math.ceil(travels_m.max() / HINGE_PLAY_M))
+    first, *onward = (Body("", half, pose, 1) for pose in (begin, *(_onward(before, now, share) for share in shares)))
+    on = _near(shape_of(holder.geometry.mesh), [first, *onward])
+    if on is None or _meet(first, on) or not any(_meet(one, on) for one in onward):
+        return None
+    x, y, z = far.tolist()
+    return x, y, z
+
+
+@lru_cache(64)
+def _box(sizes_m: Vector) -> Shape:
+    return shape_of(Box(sizes_m).mesh)
+
+
+def _near(shape: Shape, bodies: Sequence[Body]) -> Body | None:
+    """Return a shape without the triangles that are clear of all bodies, None if none is left."""
+    low, high = np.min([one.low for one in bodies], axis=0), np.max([one.high for one in bodies], axis=0)
+    columns = shape.boxes.meeting(Boxes(low[:, None], high[:, None]).grown(HINGE_PLAY_M))
+    if not len(columns):
+        return None
+    # With contacts of an engine no search tree is ready. That of a detailed mesh would delay a frame; one of at most
+    # twice as many triangles is rather kept.
+    if not shape.is_prepared and 2 * len(columns) < shape.triangles.shape[2]:
+        triangles = shape.triangles[:, :, columns]
+        shape = Shape(triangles, triangles.reshape(3, -1).T)
+    return Body("", shape, Pose(), 1)
+
+
+def _meet(one: Body, other: Body) -> bool:
+    return MeshPair(one, other).gap(HINGE_PLAY_M) is not None
+
+
+def _seen_from(holder: Pose, pose: Pose) -> Pose:
+    """Return a pose in the frame of another."""
+    (position_m,), (x, y, z, w) = holder.to_own([pose.position_m]), holder.rotation_xyzw
+    turned = Pose((0.0, 0.0, 0.0), (-x, -y, -z, w)).compose(pose)
+    return Pose(tuple(position_m), turned.rotation_xyzw)
+
+
+def _onward(before: Pose, now: Pose, share: float) -> Pose:
+    """Return the pose after a share of one more step like the last."""
+    was, rotation = np.array(before.rotation_xyzw), np.array(now.rotation_xyzw)
+    rotation = rotation + share * (rotation - math.copysign(1.0, was @ rotation) * was)
+    position_m = np.array(now.position_m) + share * np.subtract(now.position_m, before.position_m)
+    return Pose(tuple(position_m), tuple(rotation / np.linalg.norm(rotation)))
