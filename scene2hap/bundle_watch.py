@@ -35,7 +35,7 @@ class BundleWatch:
     def __init__(self, session: HapticSession, folder: str | os.PathLike[str]) -> None:
         self.problem: str = ""
         self._session, self._folder = session, checks.path("folder", folder, error=BundleError)
-        if not self._folder.is_dir():
+        if not os.path.isdir(self._folder):
             raise BundleError(f"there is no folder {str(self._folder)!r} to watch; `bake` and `save` write one.")
         # A deque, since the worker may publish a bundle at any step of `update`.
         self._read: deque[HapticBundle] = deque(maxlen=1)

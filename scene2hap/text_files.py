@@ -24,6 +24,18 @@ def path_in_c(path: Path) -> str | bytes:
     return str(path) if os.name == "nt" else os.fsencode(path)
 
 
+def is_there(path: Path) -> bool:
+    """Return True if a path exists. Raises: OSError, ValueError: that cannot be known, or nothing can have that name.
+
+    `Path.exists` returns False there from Python 3.14 on, so that a file in a locked folder would be called missing.
+    """
+    try:
+        path.stat()
+    except (FileNotFoundError, NotADirectoryError):
+        return False
+    return True
+
+
 def read_small(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) -> bytes:
     """Read a regular file. Pipes and devices are rejected, since they may have no end.
 

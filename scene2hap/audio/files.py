@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Credit, Samples
 from scene2hap.errors import AudioError, reason_of, unwritable
-from scene2hap.text_files import draft_of, path_in_c
+from scene2hap.text_files import draft_of, is_there, path_in_c
 
 PcmSubtype = Literal["PCM_16", "PCM_24", "PCM_32"]
 
@@ -138,9 +138,9 @@ def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
     Raises: AudioError: it is absent, no sound, or cut short, now or while it is read; it has more than `MAX_CHANNELS`,
     or more samples than `MAX_FILE_SAMPLES` and `SAMPLES_PER_BYTE` allow.
     """
-    if not path.is_file():
-        raise AudioError(f"{path} is not a file. Give the path of an existing sound file.")
     try:
+        if not (is_there(path) and path.is_file()):
+            raise AudioError(f"{path} is not a file. Give the path of an existing sound file.")
         if _is_cut_short(path):
             raise AudioError(f"{path} is cut short: fewer bytes than its header says. Copy it again.")
         with soundfile.SoundFile(path_in_c(path)) as file:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ipaddress
+import os
 from pathlib import Path
 from typing import Any, Self
 
@@ -53,7 +54,7 @@ class BridgeConfig(Settings):
     @field_validator("root")
     @classmethod
     def _is_folder(cls, root: Path | None) -> Path | None:
-        if root is not None and not root.is_dir():
+        if root is not None and not os.path.isdir(root):
             raise ConfigError(f"root is {str(root)!r}; it must be a folder. Create it first.")
         return None if root is None else root.resolve()
 

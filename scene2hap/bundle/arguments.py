@@ -57,4 +57,4 @@ def given_pair(scene: object, bundle: object) -> tuple[SceneSnapshot, HapticBund
 
 def _is_folder(path: object) -> bool:
     """Return True if a path is meant as a bundle: it is a folder, or has the suffix of a bundle."""
-    return isinstance(path, str | os.PathLike) and (Path(path).is_dir() or Path(path).suffix == ".bundle")
+    return isinstance(path, str | os.PathLike) and (os.path.isdir(path) or Path(path).suffix == ".bundle")

@@ -51,7 +51,7 @@ def require_replaceable(target: Path) -> None:
     would move away.
     """
     place = _resolved(target)
-    above = next(folder for folder in place.parents if folder.exists())
+    above = next(folder for folder in place.parents if os.path.exists(folder))
     if not above.is_dir() or not os.access(above, os.W_OK | os.X_OK):
         raise BundleError(f"{target} cannot be written: {above} is no folder of yours. Choose another place.")
     try:

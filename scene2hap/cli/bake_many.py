@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import glob
+import os
 import time
 from pathlib import Path
 from typing import Any
@@ -82,7 +83,7 @@ def files(given: list[str]) -> list[str]:
     """Return the files and the matches of patterns, each once. Raises: ConfigError: a pattern matches none."""
     found: list[str] = []
     for one in given:
-        matches = [one] if Path(one).exists() or not glob.has_magic(one) else sorted(glob.glob(one, recursive=True))
+        matches = [one] if os.path.exists(one) or not glob.has_magic(one) else sorted(glob.glob(one, recursive=True))
         if not matches:
             raise ConfigError(f"no file matches {one!r}. Check the pattern.")
         found += matches

@@ -12,6 +12,7 @@ which lists the files for an engine, and report.txt with the error of each file.
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 from typing import Any
 
@@ -47,7 +48,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     source = Path(arguments.source)
     specs: list[Any] = [given_spec("--to", one) for one in arguments.to or [ALL]]
     with console.progress() as tell:
-        if source.is_file() and source.name != "bundle.json":
+        if os.path.isfile(source) and source.name != "bundle.json":
             if arguments.touches or arguments.settings:
                 raise ConfigError("--touches and --settings need a bundle; one clip has no scene to touch.")
             report = export_clip(source, arguments.output, specs, progress=tell)

@@ -43,7 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Show a folder as a bundle, and any other path as a scene."""
-    if Path(arguments.scene).is_dir():
+    if os.path.isdir(arguments.scene):
         bundle = HapticBundle.load(arguments.scene)
         scene = bundle.snapshot
         outcome = {**scene_outcome(scene), **bundle_outcome(bundle)}

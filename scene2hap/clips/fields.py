@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -109,7 +110,7 @@ def read_fields(path: Path, *, needed: str, kind: str) -> Fields:
     try:
         content = read_small(path, MAX_BYTES)
     except (OSError, ValueError) as cause:
-        near = "" if path.exists() else f" {checks.near_files(path)}".rstrip()
+        near = "" if os.path.exists(path) else f" {checks.near_files(path)}".rstrip()
         reason = getattr(cause, "strerror", None) or cause
         raise ClipError(f"{path}: cannot be read as {kind}: {reason}.{near}") from cause
     try:

@@ -31,11 +31,11 @@ class WavSink(Pulled):
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path: Path = checks.path("path", path, error=ConfigError)
-        if not self.path.name or self.path.is_dir():
+        if not self.path.name or os.path.isdir(self.path):
             raise ConfigError(
                 f"path {str(path)!r} is a folder; give that of a file, as {str(self.path / 'touch.wav')!r}."
             )
-        if self.path.exists() and not self.path.is_file():
+        if os.path.exists(self.path) and not os.path.isfile(self.path):
             raise ConfigError(f"path {str(path)!r} is a device or a pipe; give that of a file.")
         if self.path.suffix.lower() not in ("", ".wav", ".wave"):
             raise ConfigError(f"path is {str(path)!r}; WavSink writes WAV, so that it must end in .wav.")

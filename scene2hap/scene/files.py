@@ -11,6 +11,7 @@ from urllib.parse import unquote, urlsplit
 from scene2hap import checks
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
+from scene2hap.text_files import is_there
 
 HABITAT_SUFFIX = ".scene_instance.json"
 
@@ -89,7 +90,7 @@ def read_bytes(path: Path) -> bytes:
 def check_file(path: Path) -> None:
     """Check a file without reading it. Raises: the errors of `read_bytes`, except for unreadable content."""
     try:
-        if not path.exists():
+        if not is_there(path):
             near = checks.near_files(path) or "Check the path, or export the scene with all its files."
             raise SceneError(f"there is no file {str(path)!r}. {near}")
         if (path / "bundle.json").exists():

@@ -147,7 +147,7 @@ def _loaded(
 @_naming_file
 def _read(path: Path, assets_root: Path) -> AuthoredScene:
     suffix = path.suffix.lower()
-    if suffix not in SUFFIXES and path.is_file():
+    if suffix not in SUFFIXES and os.path.isfile(path):
         raise SceneFormatError(
             f"{path.name!r} is of no kind that is read: {', '.join(SUFFIXES)}. Export the scene as GLB (.glb) from the "
             "program that made it."

@@ -18,6 +18,7 @@ import pytest
 import soundfile
 
 from command_line_page import PAGE, page
+from foreground import IN_FOREGROUND
 from scene2hap import (
     Box,
     BundleWatch,
@@ -191,11 +192,12 @@ def test_help_names_the_documentation(capsys: pytest.CaptureFixture[str]) -> Non
 def test_a_saved_sound_reaches_a_running_session(fan: Path) -> None:
     """An audio editor saves a file, `edit --watch` makes the loop, and a session that watches the bundle plays it."""
     sound = tone(fan.parent / "mine.wav", 110.0)
-    words = [sys.executable, "-m", "scene2hap", "edit", str(fan), "sound", "handheld_fan", str(sound), "--watch"]
+    words = ["-m", "scene2hap", "edit", str(fan), "sound", "handheld_fan", str(sound), "--watch"]
+    command = [sys.executable, "-c", IN_FOREGROUND, *words]
     session = HapticSession(fan)
     # The watch starts first, since it ignores files saved before.
     with BundleWatch(session, fan) as watch:
-        edit = subprocess.Popen(words, env={**os.environ, "PYTHONUNBUFFERED": "1"}, stdout=subprocess.PIPE, text=True)
+        edit = subprocess.Popen(command, env={**os.environ, "PYTHONUNBUFFERED": "1"}, stdout=subprocess.PIPE, text=True)
         try:
             for frequency_hz in (110.0, 170.0):
                 if frequency_hz != 110.0:
@@ -211,5 +213,8 @@ def test_a_saved_sound_reaches_a_running_session(fan: Path) -> None:
                 assert loop.frequency_raw_hz == pytest.approx(frequency_hz, rel=0.02)
         finally:
             edit.send_signal(signal.SIGINT)
-    edit.communicate(timeout=120)
+    try:
+        edit.communicate(timeout=120)
+    finally:
+        edit.kill()
     assert edit.returncode == 0

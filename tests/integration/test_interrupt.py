@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from batch_server import answered
+from foreground import IN_FOREGROUND
 from llm_server import Asked, Scripted, serving
 
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT for one process")
@@ -53,11 +54,6 @@ WHOLE_PROGRAM = """import sys
 import scene2hap.__main__ as program
 print("ready", flush=True)
 sys.exit(program.main())
-"""
-# A shell makes its background processes ignore the signal, which their children inherit, as those of this test.
-IN_FOREGROUND = """import os, signal, sys
-signal.signal(signal.SIGINT, signal.SIG_DFL)
-os.execv(sys.executable, [sys.executable, *sys.argv[1:]])
 """
 
 

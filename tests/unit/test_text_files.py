@@ -1,13 +1,23 @@
 """Reading small user files, limited in size and without waiting for pipes; writing files whole or not at all."""
 
 import os
+import sys
 import tracemalloc
+from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
+import soundfile
 
-from scene2hap import WavSink
-from scene2hap.errors import ConfigError
+from scene2hap import HapticSession, WavSink, load_scene
+from scene2hap.audio.conversion import Failure, convert, convert_files
+from scene2hap.audio.sources.library import FolderLibrary
+from scene2hap.bridge.config import BridgeConfig
+from scene2hap.bundle.folder_replacement import require_replaceable
+from scene2hap.clips.ahap import read_ahap
+from scene2hap.errors import AudioError, ConfigError, Scene2HapError
+from scene2hap.llm.prompts import Prompts
 from scene2hap.text_files import draft_of, drafts_of, read_small, read_small_text, write_whole
 
 
@@ -120,3 +130,38 @@ def test_a_device_or_a_pipe_is_not_replaced_by_a_file(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="a device or a pipe"):
         WavSink(tmp_path / "pipe.wav")
     assert (tmp_path / "pipe.wav").is_fifo()
+
+
+TOO_LONG = "x" * 5000
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows calls a name that is too long absent")
+@pytest.mark.parametrize(
+    ("use", "error"),
+    [
+        (HapticSession, r"cannot be read: .* too long"),
+        (lambda name: load_scene(f"{name}.glb"), r"cannot be read: .* too long"),
+        (lambda name: load_scene(f"{name}.xyz"), r"cannot be read: .* too long"),
+        (lambda name: read_ahap(Path(f"{name}.ahap")), r"cannot be read as .* too long"),
+        (lambda name: convert(f"{name}.wav", "made.wav"), r"cannot be read .* too long"),
+        (FolderLibrary, "is not a folder"),
+        (Prompts.load, "has no template"),
+        (lambda name: BridgeConfig(root=Path(name)), "must be a folder"),
+        (lambda name: require_replaceable(Path(name, "made.bundle")), r"cannot be written: .* too long"),
+    ],
+)
+def test_a_name_that_no_file_can_have_is_an_error_of_ours(use: Callable[[str], object], error: str) -> None:
+    """A file in a locked folder raises the same errors of the system: from `exists` up to Python 3.13, later not."""
+    with pytest.raises(Scene2HapError, match=f"(?s){error}"):
+        use(TOO_LONG)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows calls a name that is too long absent")
+def test_a_sound_is_not_converted_to_a_name_that_no_file_can_have(tmp_path: Path) -> None:
+    sound = tmp_path / "a.wav"
+    soundfile.write(sound, np.full(800, 0.1), 8000)
+    with pytest.raises(AudioError, match=r"(?s)cannot be written: .* too long"):
+        convert(sound, tmp_path / f"{TOO_LONG}.wav")
+    (failure,) = convert_files([sound], tmp_path / TOO_LONG)
+    assert isinstance(failure, Failure)
+    assert "too long" in failure.reason

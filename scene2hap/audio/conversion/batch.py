@@ -128,9 +128,10 @@ def _planned(sources: Sequence[Path], output: Path, suffix: str) -> tuple[dict[i
     """Return the job of each file, and the failures of files that cannot be converted."""
     if suffix not in FORMATS:
         raise AudioError(f"suffix is {suffix!r}; it must be one of {', '.join(FORMATS)}.")
-    if len(sources) == 1 and not sources[0].is_dir() and output.suffix and not output.is_dir():
+    is_folder = os.path.isdir(output)
+    if len(sources) == 1 and not os.path.isdir(sources[0]) and output.suffix and not is_folder:
         return {0: _Job(sources[0], output)}, {}
-    if (output.suffix.lower() in FORMATS and not output.is_dir()) or output.is_file():
+    if (output.suffix.lower() in FORMATS and not is_folder) or os.path.isfile(output):
         raise AudioError(f"{output} is one file, and there is more than one to make. Give a folder.")
     jobs: dict[int, _Job] = {}
     failures: dict[int, Failure] = {}
@@ -148,7 +149,7 @@ def _planned(sources: Sequence[Path], output: Path, suffix: str) -> tuple[dict[i
 def _found(sources: Sequence[Path], output: Path) -> Iterator[tuple[Path, Path]]:
     """Yield every file and its path in the output folder. Files in the output folder are skipped as earlier results."""
     for source in sources:
-        if not source.is_dir():
+        if not os.path.isdir(source):
             yield source, Path(source.name)
             continue
         for path in sorted(source.rglob("*")):

@@ -8,6 +8,7 @@ temporary file until then.
 from __future__ import annotations
 
 import math
+import os
 import time
 from collections.abc import Collection, Iterator
 from contextlib import ExitStack, contextmanager
@@ -420,9 +421,9 @@ def _check_target(source: Path, output: Path, suffixes: Collection[str], *, over
         raise AudioError(
             f"{output} has no suffix of a known format; it must end in one of {known}, or be a folder that exists."
         )
-    if output.exists() and source.exists() and output.samefile(source):
+    if os.path.exists(output) and os.path.exists(source) and output.samefile(source):
         raise AudioError(f"{output} is the sound itself. Choose another name for what is made of it.")
-    if output.is_dir():
+    if os.path.isdir(output):
         raise AudioError(f"{output} is a folder. Choose another name.")
-    if output.exists() and not overwrite:
+    if os.path.exists(output) and not overwrite:
         raise AudioError(f"{output} exists. Choose another name, or allow overwriting (overwrite=True, --force).")

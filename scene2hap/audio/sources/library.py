@@ -62,7 +62,7 @@ class FolderLibrary:
         return found
 
     def _require_folder(self) -> None:
-        if not self.folder.is_dir():
+        if not os.path.isdir(self.folder):
             raise ConfigError(f"the sound library {self.folder} is not a folder. Create it, or choose another source.")
 
     def _entries(self) -> Iterator[tuple[Path, set[str], Credit]]:

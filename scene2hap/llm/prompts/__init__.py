@@ -46,7 +46,7 @@ class Prompts:
         """
         if folder is None:
             return _built_in()
-        own = {name: path for name in COMPONENTS if (path := Path(folder) / f"{name}.txt").is_file()}
+        own = {name: path for name in COMPONENTS if os.path.isfile(path := Path(folder) / f"{name}.txt")}
         if not own:
             names = ", ".join(f"{name}.txt" for name in COMPONENTS)
             raise ConfigError(f"prompts folder {folder} has no template; it must hold at least one of {names}.")

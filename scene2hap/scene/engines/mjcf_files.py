@@ -19,6 +19,7 @@ from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 from scene2hap.scene.files import outside, usable_name
 from scene2hap.scene.formats.xml_files import walk_xml
+from scene2hap.text_files import is_there
 
 MAX_XML_BYTES = 1 << 26
 """Largest size of one XML file [bytes] (assumed: a hundred times a large robot)."""
@@ -169,7 +170,7 @@ class _Model:
         """Return the file with a wanted name. If it is outside the root: None, and the file is recorded."""
         with usable_name(wanted.name, wanted.place):
             candidates = [(base / self._name(wanted)).resolve() for base in self._bases(wanted)]
-            existing = [path for path in candidates if _is_there(path)]
+            existing = [path for path in candidates if is_there(path)]
         beyond = [path for path in existing or candidates if not path.is_relative_to(self.root)]
         if beyond:
             self.outside.append((wanted, beyond[0]))
@@ -291,15 +292,6 @@ def _at_most(what: str, number: str, most: int) -> None:
     """Check a number in a text. Raises: SceneError: it is larger. MuJoCo itself refuses texts that are no numbers."""
     if _product(number) > most:
         raise SceneError(f"{what} is {number[:40]!r}; up to {most:,} is read.")
-
-
-def _is_there(path: Path) -> bool:
-    """Return True if a path exists. Raises: OSError: it is invalid (`exists` does not raise from Python 3.14 on)."""
-    try:
-        path.stat()
-    except (FileNotFoundError, NotADirectoryError):
-        return False
-    return True
 
 
 def _plain(name: str) -> str:

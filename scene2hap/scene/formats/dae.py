@@ -39,7 +39,9 @@ def read_dae(data: bytes, name: str, textures: TextureFiles) -> AuthoredScene:
     its up axis is X.
     """
     try:
-        collada: Any = import_module("collada")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # pycollada 0.9 uses what Python 3.15 deprecates
+            collada: Any = import_module("collada")
     except ImportError as cause:
         raise MissingExtra(
             f"{name!r} is COLLADA, and its reader is not installed. Run: pip install pycollada"

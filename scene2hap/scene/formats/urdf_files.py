@@ -11,6 +11,7 @@ from xml.etree.ElementTree import Element
 
 from scene2hap.errors import SceneError
 from scene2hap.scene.files import address, outside, usable_name
+from scene2hap.text_files import is_there
 
 _PACKAGES = ("package", "model")
 
@@ -34,7 +35,7 @@ class UrdfFiles:
                 path = path.resolve()
                 if not path.is_relative_to(root):
                     beyond = beyond or path
-                elif path.is_file():
+                elif is_there(path) and path.is_file():
                     return path
         if beyond is None:
             raise SceneError(

@@ -85,7 +85,13 @@ def _check(command: Sequence[str], environment: dict[str, str], **settings: Any)
 def test_the_parts_in_node(node: str, modules: Path) -> None:
     environment = {**os.environ, "SCENE2HAP_NODE_MODULES": str(modules)}
     ended = subprocess.run(
-        [node, "--test"], cwd=CLIENT, env=environment, capture_output=True, text=True, timeout=120, check=False
+        [node, "--test", "--test-reporter=tap"],
+        cwd=CLIENT,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
     )
     assert ended.returncode == 0, ended.stdout
     counted = dict(re.findall(r"^# (pass|fail|skipped) (\d+)$", ended.stdout, re.M))

@@ -22,11 +22,12 @@ from typing import Any
 from pxr import Sdf, Tf
 
 from scene2hap.errors import SceneError, SceneFormatError
-from scene2hap.scene.files import check_file, inside
+from scene2hap.scene.files import check_file, inside, usable_name
 from scene2hap.scene.formats.usd.archive import Archive
 from scene2hap.scene.formats.usd.composition import Composition
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.looks.textures import EncodedTexture
+from scene2hap.text_files import is_there
 
 MAX_LAYER_BYTES = 1 << 32
 """Largest size of all layers of one scene [bytes] (assumed)."""
@@ -238,11 +239,14 @@ class Layers:
         if suffix not in _SUFFIXES and not _SCHEME.match(name):
             raise SceneError(f"{place} names {name!r}; layers that are read end in {', '.join(_SUFFIXES)}.")
         path = self._inside(name, Path(home.folder), place)
-        if not path.exists() and not name.startswith(("./", "../", "/")):
-            # A name without a leading dot may also start from the folder of the root layer (Ar, search paths).
-            beside_root = self._inside(name, self._path.parent, place)
-            path = beside_root if beside_root.exists() else path
-        if not path.exists():
+        with usable_name(name, place):
+            exists = is_there(path)
+            if not exists and not name.startswith(("./", "../", "/")):
+                # A name without a leading dot may also start from the folder of the root layer (Ar, search paths).
+                beside_root = self._inside(name, self._path.parent, place)
+                exists = is_there(beside_root)
+                path = beside_root if exists else path
+        if not exists:
             raise SceneError(f"{place} needs the layer {name!r}, and there is no file {str(path)!r}. Copy it there.")
         return self._file(path)
 

@@ -82,6 +82,7 @@ def test_a_layer_outside_needs_another_root(tmp_path: Path, arc: str) -> None:
         ("omniverse://server/a.usd", "never fetched"),
         ("/etc/a.usda", "lies outside"),
         ("gone.usda", "needs the layer 'gone.usda', and there is no file"),
+        (f"{'x' * 5000}.usda", "which is no usable file name"),
         ("chair.obj", "layers that are read end in .usd"),
         ('`"${ROOM}.usda"`', "by the expression"),
     ],
