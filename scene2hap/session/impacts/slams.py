@@ -3,7 +3,8 @@
 The contact at a hinge does not show where the two meet. A door has met what it hangs on if the half of its box far from
 its axis was clear of it when the motion began, and would pass through it with one more step like the last.
 
-Links of a robot are near each other all the time. So nothing slams against an object that is itself held by a hinge.
+Links of a robot that moves are near each other all the time. So nothing slams against what moves on a hinge
+itself.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ def edge_that_meets(item: SceneObject, holder: SceneObject, way: Sequence[tuple[
     Parameters: way : poses of the object and its holder at the begin of the motion, a step ago, and now.
     """
     hinge = item.hinge
-    if hinge is None or hinge.to != holder.id or holder.hinge is not None:
+    if hinge is None or hinge.to != holder.id or (holder.hinge is not None and way[0][1] != way[-1][1]):
         return None
     begin, before, now = (_seen_from(its, pose) for pose, its in way)
     if math.dist(now.to_world([hinge.point_m])[0], hinge.other_point_m) >= HINGE_PLAY_M:

@@ -184,6 +184,15 @@ def test_a_door_slams_at_the_middle_of_its_edge_also_if_its_hinge_is_given_at_th
     assert slam.speed_m_s == pytest.approx(3.0 * WIDTH_M, rel=0.25)
 
 
+def test_the_door_of_a_cabinet_that_a_hinge_holds_on_the_wall_slams() -> None:
+    wall = SceneObject("wall", pose=Pose((0.0, 1.25, -0.25)), geometry=Box((3.0, 2.5, 0.1)))
+    door = SceneObject("cabinet door", pose=door_pose(0.0), geometry=Box((WIDTH_M, 1.9, THICK_M)))
+    cabinet = CABINET.hinged_on(wall, (0.0, 1.5, -0.2))
+    scene = SceneSnapshot.build([wall, cabinet, door.hinged_on(cabinet, PIVOT_M)])
+    (slam,) = impacts_of(HapticSession(scene, bake(scene)), pushed(3.0))
+    assert slam.object_id == "cabinet"
+
+
 def test_a_slam_on_a_detailed_mesh_builds_no_search_tree_of_it() -> None:
     """That of 3,072 triangles takes longer than a frame, and none is prepared with contacts of an engine."""
     fine = trimesh.creation.box((WIDTH_M, 2.0, 2 * FRONT_M)).subdivide().subdivide().subdivide().subdivide()
