@@ -3,8 +3,7 @@
 The contact at a hinge does not show where the two meet. A door has met what it hangs on if the half of its box far from
 its axis was clear of it when the motion began, and would pass through it with one more step like the last.
 
-Links of a robot that moves are near each other all the time. So nothing slams against what moves on a hinge
-itself.
+Links of a robot that moves are near each other all the time. So nothing slams against what moves on a hinge itself.
 """
 
 from __future__ import annotations
