@@ -111,6 +111,11 @@ class Pose:
         position = self.to_world(np.asarray(inner.position_m))
         return Pose(vector(position), quaternion)
 
+    def inverse(self) -> Pose:
+        """Return the pose of the world in this frame: `frame.inverse().compose(pose)` is a pose seen from a frame."""
+        x, y, z, w = self.rotation_xyzw
+        return Pose((-self.rotation.T @ self.position_m).tolist(), (-x, -y, -z, w))
+
     @classmethod
     def from_wxyz(cls, position_m: Iterable[float], rotation_wxyz: Iterable[float]) -> Pose:
         """Return the pose of a quaternion that begins with w, as in MuJoCo, Blender and PyTorch3D."""

@@ -26,7 +26,7 @@ _ENDING = Event()
 
 class PreparedShapes:
     """The shapes of a session's meshes. If `in_background`, a worker prepares those of all but boxes; `wait` prepares
-    all that are left. Without `is_wanted` nothing is prepared."""
+    the rest. If not `is_wanted`, nothing is prepared."""
 
     def __init__(self, *, is_wanted: bool, in_background: bool) -> None:
         self._is_wanted, self._in_background = is_wanted, in_background

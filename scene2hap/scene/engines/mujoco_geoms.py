@@ -177,7 +177,4 @@ def authored_pose(model: Any, geom: int) -> Pose:
     mesh = _mesh(model, geom)
     if mesh is None:
         return compiled
-    inner = Pose.from_wxyz(model.mesh_pos[mesh], model.mesh_quat[mesh])
-    x, y, z, w = inner.rotation_xyzw
-    back = Pose(tuple((-inner.rotation.T @ inner.position_m).tolist()), (-x, -y, -z, w))
-    return compiled.compose(back)
+    return compiled.compose(Pose.from_wxyz(model.mesh_pos[mesh], model.mesh_quat[mesh]).inverse())

@@ -1,8 +1,8 @@
 """MuJoCo joints as hinges.
 
 A body with hinge or ball joints alone is held on the drawn body before it, if only welds lie between the two. So is a
-body that is welded to one that moves, such as the hand of a robot. Contacts of other bodies are found from geometry: of
-those that slide on others, since they touch along their rails, and of those that are fixed to the world.
+body that is welded to one that moves, such as the hand of a robot. Bodies that slide on others touch along their rails;
+their contacts, and those of bodies fixed to the world, are found from geometry.
 
 Source: MuJoCo documentation (Google DeepMind), XML reference, `joint`; mjData: xanchor, xaxis.
 """

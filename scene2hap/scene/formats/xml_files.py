@@ -11,7 +11,7 @@ from scene2hap.scene import limits
 from scene2hap.scene.files import read_bytes
 
 Start = Callable[[str, dict[str, str], int, int], None]
-"""Called at the begin of an element with its tag, attributes, line, and the number of elements around it."""
+"""Called at the start of an element with its tag, attributes, line, and the number of elements around it."""
 
 
 _DECLARED_LATE = expat.errors.codes[expat.errors.XML_ERROR_MISPLACED_XML_PI]

@@ -211,8 +211,8 @@ class Landings:
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
         beside, met = self._graph.beside.get(object_id, _NOTHING), self._met(object_id)
         edges = {x: edge for x in met if (edge := self._edge(object_id, track, x)) is not None}
-        # The graph's order depends on the hashes of ids, which differ in each run of Python. Present contacts first,
-        # and before hinges those that show where the two meet.
+        # Sorted, since the graph's order depends on the hashes of ids, which differ in each run of Python. Present
+        # contacts come first, and hinges last among these: a contact elsewhere shows where the two objects meet.
         others = sorted(met, key=lambda x: (x not in beside, x in edges, x))
         for other, junction in [(x, side) for x in others for side in _sides(met[x])]:
             if best is not None and (other not in beside or other in edges):

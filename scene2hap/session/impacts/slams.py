@@ -33,12 +33,12 @@ def edge_that_meets(item: SceneObject, holder: SceneObject, way: Sequence[tuple[
     """Return the middle of the far side of a door or lid [m], in its own frame, if what its hinge holds it on is in its
     way; None if it has no such hinge.
 
-    Parameters: way : poses of the object and its holder at the begin of the motion, a step ago, and now.
+    Parameters: way : poses of the object and its holder at the start of the motion, a step ago, and now.
     """
     hinge = item.hinge
     if hinge is None or hinge.to != holder.id or (holder.hinge is not None and way[0][1] != way[-1][1]):
         return None
-    begin, before, now = (_seen_from(its, pose) for pose, its in way)
+    begin, before, now = (its.inverse().compose(pose) for pose, its in way)
     if math.dist(now.to_world([hinge.point_m])[0], hinge.other_point_m) >= HINGE_PLAY_M:
         return None
     low, high = item.geometry.mesh.bounds_m
@@ -80,13 +80,6 @@ def _near(shape: Shape, bodies: Sequence[Body]) -> Body | None:
 
 def _meet(one: Body, other: Body) -> bool:
     return MeshPair(one, other).gap(HINGE_PLAY_M) is not None
-
-
-def _seen_from(holder: Pose, pose: Pose) -> Pose:
-    """Return a pose in the frame of another."""
-    (position_m,), (x, y, z, w) = holder.to_own([pose.position_m]), holder.rotation_xyzw
-    turned = Pose((0.0, 0.0, 0.0), (-x, -y, -z, w)).compose(pose)
-    return Pose(tuple(position_m), turned.rotation_xyzw)
 
 
 def _onward(before: Pose, now: Pose, share: float) -> Pose:

@@ -50,6 +50,12 @@ def test_compose_applies_inner_then_outer(outer: Pose, inner: Pose, points: list
     np.testing.assert_allclose(together, outer.to_world(inner.to_world(points)), atol=1e-9)
 
 
+@given(poses, point_lists)
+@settings(max_examples=50)
+def test_inverse_maps_the_world_into_the_frame(pose: Pose, points: list[tuple[float, float, float]]) -> None:
+    np.testing.assert_allclose(pose.inverse().to_world(points), pose.to_own(points), atol=1e-9)
+
+
 @given(poses)
 @settings(max_examples=100)
 def test_from_matrix_restores_the_pose(pose: Pose) -> None:
