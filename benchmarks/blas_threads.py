@@ -21,7 +21,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from scene2hap import HapticBundle, HapticSession, Touch, bake, blas_threads
+from scene2hap import HapticBundle, HapticSession, Touch, bake
+from scene2hap.common import blas_threads
 from scene2hap.demo import kitchen_path
 
 KINDS = ("infinite_plate", "modal_plate", "mass_spring_damper", "auto")

@@ -27,12 +27,12 @@ from inference.material_table import CONSTANTS, MaterialRow, material_table
 from inference.reading import read
 from inference.scoring import Counts, Judgement, judge, same_category
 
+from scene2hap.common.settings import read_settings
 from scene2hap.errors import Scene2HapError
 from scene2hap.llm import BACKENDS
 from scene2hap.llm.chain import infer_scene
 from scene2hap.llm.protocol import LLMBackend, LLMReply, LLMRequest
 from scene2hap.scene.capture import capture_images
-from scene2hap.settings import read_settings
 
 SCENES = Path(__file__).parents[2] / "shared" / "scenes"
 COLUMNS = (

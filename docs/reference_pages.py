@@ -30,14 +30,12 @@ TITLES = {
     "baking": "Baking",
     "session": "Sessions",
     "engines": "Engines",
-    "playing": "Playing files",
     "export": "Exports",
     "devices": "Actuators",
     "testing": "Contracts for plug-ins",
     "errors": "Errors",
 }
 ROOT = Path(__file__).parents[1]
-PLAYING = ("bundle_watch", "touch_track", "track_player")
 
 
 def public_names() -> dict[str, list[str]]:
@@ -47,8 +45,7 @@ def public_names() -> dict[str, list[str]]:
     for module in (scene2hap.testing, scene2hap.errors):
         shown += [value for name, value in vars(module).items() if of_module(value, module.__name__, name)]
     for value in shown:
-        part = value.__module__.split(".")[1]
-        names["playing" if part in PLAYING else part].append(f"{value.__module__}.{value.__qualname__}")
+        names[value.__module__.split(".")[1]].append(f"{value.__module__}.{value.__qualname__}")
     return names
 
 

@@ -39,7 +39,7 @@ from scene2hap import (
     WavSink,
     bake,
 )
-from scene2hap.plots import new_figure
+from scene2hap.common.plots import new_figure
 
 DISTANCES_M = (0.0, 0.4, 0.8, 1.2)
 CONDITIONS = {"none": "no_propagation", "full": "full_propagation", "attenuated": "exponential_plate"}

@@ -67,9 +67,9 @@ _NAMES_IN = {
     "scene2hap.session": ("HapticFrame", "HapticSession", "Impact", "SessionConfig", "Touch", "UserProfile"),
     "scene2hap.engines": ("EngineAdapter", "EngineLink", "MuJoCoLink", "Panda3DLink"),
     "scene2hap.baking.many": ("ManyReport", "abake_many", "bake_many"),
-    "scene2hap.bundle_watch": ("BundleWatch",),
-    "scene2hap.touch_track": ("TouchTrack",),
-    "scene2hap.track_player": ("play_track",),
+    "scene2hap.session.bundle_watch": ("BundleWatch",),
+    "scene2hap.session.touch_track": ("TouchTrack",),
+    "scene2hap.session.track_player": ("play_track",),
     "scene2hap.clips.haptic_clip": ("HapticClip",),
     "scene2hap.clips.reading": ("read_haptic_clip",),
     "scene2hap.export": ("export_bundle", "export_clip"),
@@ -121,7 +121,7 @@ if not TYPE_CHECKING:  # type checkers would take any name for one of ours, and 
         if name.startswith("_") or find_spec(f"{__name__}.{name}") is not None:  # a submodule that is being imported
             raise AttributeError(f"module 'scene2hap' has no attribute {name!r}")
         from scene2hap import errors
-        from scene2hap.calls import unknown_attribute, unknown_import
+        from scene2hap.common.calls import unknown_attribute, unknown_import
 
         known = [f"errors.{name}"] if hasattr(errors, name) else [one for one in __dir__() if not one.startswith("_")]
         # `from scene2hap import name` looks the name up first, and replaces an AttributeError by a message of its own.
@@ -173,7 +173,6 @@ if TYPE_CHECKING:
     )
     from scene2hap.baking.many import ManyReport as ManyReport, abake_many as abake_many, bake_many as bake_many
     from scene2hap.bundle import HapticBundle as HapticBundle, Override as Override
-    from scene2hap.bundle_watch import BundleWatch as BundleWatch
     from scene2hap.clips.haptic_clip import HapticClip as HapticClip
     from scene2hap.clips.reading import read_haptic_clip as read_haptic_clip
     from scene2hap.contact.graph import ContactChange as ContactChange, ContactGraph as ContactGraph
@@ -251,5 +250,6 @@ if TYPE_CHECKING:
         Touch as Touch,
         UserProfile as UserProfile,
     )
-    from scene2hap.touch_track import TouchTrack as TouchTrack
-    from scene2hap.track_player import play_track as play_track
+    from scene2hap.session.bundle_watch import BundleWatch as BundleWatch
+    from scene2hap.session.touch_track import TouchTrack as TouchTrack
+    from scene2hap.session.track_player import play_track as play_track

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
-from scene2hap.calls import clear_construction
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction
 from scene2hap.contact_needs import is_unknown as is_unknown, stated, unmet
 from scene2hap.errors import ConfigError, Scene2HapError
 from scene2hap.materials import Material

@@ -16,8 +16,8 @@ from importlib.metadata import EntryPoint, entry_points
 from inspect import isfunction, signature
 from typing import Any
 
-from scene2hap.calls import misfit
-from scene2hap.checks import described, did_you_mean, represented, shown
+from scene2hap.common.calls import misfit
+from scene2hap.common.checks import described, did_you_mean, represented, shown
 from scene2hap.errors import ConfigError, MissingExtra, UnknownPlugin
 
 Members = Mapping[str, tuple[str, ...] | None]

@@ -19,12 +19,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
 from scene2hap.audio.clip import Samples
-from scene2hap.calls import misfit
+from scene2hap.common import checks
+from scene2hap.common.calls import misfit
+from scene2hap.common.text_files import read_small_text
 from scene2hap.errors import ConfigError, reason_of
 from scene2hap.haptics import ActuatorProfile
-from scene2hap.text_files import read_small_text
 
 MAX_BOOST_DB = 12.0
 """Largest gain of the inverse [dB] (assumed: a factor of four in amplitude)."""

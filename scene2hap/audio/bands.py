@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import AudioError
 from scene2hap.haptics import Bands
 

@@ -20,8 +20,8 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
 from scene2hap.audio.levels import felt_level_db, felt_spectrum
+from scene2hap.common import checks
 from scene2hap.errors import AudioError
 from scene2hap.haptics import ActuatorProfile
 

@@ -14,10 +14,10 @@ import numpy as np
 import soundfile
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Credit, Samples
+from scene2hap.common import checks
+from scene2hap.common.text_files import draft_of, is_there, path_in_c
 from scene2hap.errors import AudioError, reason_of, unwritable
-from scene2hap.text_files import draft_of, is_there, path_in_c
 
 PcmSubtype = Literal["PCM_16", "PCM_24", "PCM_32"]
 

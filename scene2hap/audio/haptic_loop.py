@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, overload
 
-from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.run_curve import RunCurve
 from scene2hap.audio.threshold import NOTICED_DB
-from scene2hap.calls import clear_construction
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction
 from scene2hap.errors import AudioError
 
 if TYPE_CHECKING:

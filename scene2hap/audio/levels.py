@@ -15,10 +15,10 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
 from scene2hap.audio.actuators import response_db
 from scene2hap.audio.clip import Samples
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ, threshold_db
+from scene2hap.common import checks
 from scene2hap.errors import AudioError
 from scene2hap.haptics import ActuatorProfile
 

@@ -7,9 +7,9 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Samples
-from scene2hap.calls import clear_construction
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction
 from scene2hap.errors import AudioError
 from scene2hap.haptics import ActuatorProfile, VibrationDescription
 from scene2hap.plugins import Members, lacking

@@ -17,14 +17,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap import checks
 from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.audio.recorded_runs import RecordedRuns, recorded_runs
 from scene2hap.audio.run_curve import RunCurve
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ
+from scene2hap.common import checks
+from scene2hap.common.printable import aligned
 from scene2hap.errors import AudioError
-from scene2hap.printable import aligned
 
 MIN_DURATION_S = 2.5
 DYNAMIC_RANGE_STEP_DB = 5.0

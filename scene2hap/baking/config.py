@@ -15,11 +15,11 @@ from scene2hap.audio.sources import SOURCES
 from scene2hap.audio.sources.chain import ENOUGH
 from scene2hap.audio.spreading import SpreadLimits
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
+from scene2hap.common.settings import cache_folder
 from scene2hap.haptics import ActuatorProfile
 from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.wrappers import build_backend
-from scene2hap.settings import cache_folder
 
 _Sounds = AudioSource | Mapping[str, Any] | str
 

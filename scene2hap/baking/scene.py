@@ -12,7 +12,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop, LevelWarning, level_doubt
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.baking.config import BakeConfig
@@ -22,8 +21,9 @@ from scene2hap.baking.sound import Earlier, Progress, Remade, make_loops
 from scene2hap.bundle import BundleWarning, HapticBundle, MadeWith, Override
 from scene2hap.bundle.arguments import given_bundle
 from scene2hap.bundle.checking import vain_corrections
-from scene2hap.calls import clear_call
-from scene2hap.counted import counted, first_of
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_call
+from scene2hap.common.counted import counted, first_of
 from scene2hap.errors import ConfigError, SceneError
 from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
 from scene2hap.llm.chain import Inference, infer_scene

@@ -9,9 +9,9 @@ from typing import Any, Self
 
 from pydantic import Field, field_validator, model_validator
 
+from scene2hap.common.secret import Secret
+from scene2hap.common.settings import Settings
 from scene2hap.errors import ConfigError
-from scene2hap.secret import Secret
-from scene2hap.settings import Settings
 
 PORT = 7862
 

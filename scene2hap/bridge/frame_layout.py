@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import BridgeError, UnknownObject
 from scene2hap.scene.objects import unknown_object
 

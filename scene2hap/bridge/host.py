@@ -5,10 +5,10 @@ from __future__ import annotations
 import hmac
 from pathlib import Path
 
-from scene2hap import checks
 from scene2hap.bridge.config import BridgeConfig
 from scene2hap.bridge.hosted_session import HostedSession
 from scene2hap.bridge.jobs import Jobs
+from scene2hap.common import checks
 from scene2hap.errors import BridgeError, UnknownSession
 
 

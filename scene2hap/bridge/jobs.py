@@ -17,9 +17,9 @@ from scene2hap.bridge.hosted_session import error_message
 from scene2hap.bridge.pictures import temporary_files
 from scene2hap.bridge.session_warnings import Tell
 from scene2hap.bridge.temporary_folder import TemporaryFolder
+from scene2hap.common.interpreter import can_start_python
+from scene2hap.common.text_files import write_whole
 from scene2hap.errors import BridgeError
-from scene2hap.interpreter import can_start_python
-from scene2hap.text_files import write_whole
 
 MAX_RUNNING = 4
 """Most bakes at the same time, over all clients; assumed: more would only slow each other down."""

@@ -6,7 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import BridgeError
 
 VERSION = 1

@@ -10,11 +10,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from scene2hap import checks
 from scene2hap.bridge.frames import decode_picture
+from scene2hap.common import checks
+from scene2hap.common.text_files import write_whole
 from scene2hap.errors import BridgeError, unwritable
 from scene2hap.scene.capture.given_pictures import INDEX, GivenPictures
-from scene2hap.text_files import write_whole
 
 MAX_BYTES = 1 << 29
 """Most bytes of a client's pictures before a bake."""

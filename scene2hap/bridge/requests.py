@@ -9,7 +9,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any, cast
 
-from scene2hap import checks
 from scene2hap.bridge import messages
 from scene2hap.bridge.client import Client
 from scene2hap.bridge.garbage_collection import settle_garbage
@@ -19,6 +18,7 @@ from scene2hap.bridge.messages import Document
 from scene2hap.bridge.played_session import PlayedSession
 from scene2hap.bridge.session_warnings import Tell
 from scene2hap.bundle import HapticBundle
+from scene2hap.common import checks
 from scene2hap.devices import SINKS
 from scene2hap.devices.protocol import ActuatorSink
 from scene2hap.errors import BridgeError

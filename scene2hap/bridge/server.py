@@ -16,13 +16,14 @@ from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
-from scene2hap import __version__, checks
+from scene2hap import __version__
 from scene2hap.bridge.config import BridgeConfig, is_loopback
 from scene2hap.bridge.connection import Connection
 from scene2hap.bridge.host import Host
 from scene2hap.bridge.hosted_session import error_message
 from scene2hap.bridge.messages import VERSION, Hello, parse_request, read_document
 from scene2hap.bridge.udp import FrameDatagrams
+from scene2hap.common import checks
 from scene2hap.errors import BridgeError, ConfigError, Scene2HapError
 from scene2hap.propagation import MODELS
 

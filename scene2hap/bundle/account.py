@@ -17,9 +17,9 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from scene2hap.common.printable import read_json
+from scene2hap.common.text_files import read_small_text, write_whole
 from scene2hap.errors import BundleError, reason_of, unwritable
-from scene2hap.printable import read_json
-from scene2hap.text_files import read_small_text, write_whole
 
 FORMAT, VERSION = "scene2hap/account", 1
 

@@ -6,12 +6,12 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
-from scene2hap import checks
 from scene2hap.bundle.haptic_bundle import HapticBundle
+from scene2hap.common import checks
+from scene2hap.common.settings import Settings
 from scene2hap.errors import BundleError
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.settings import Settings
 
 
 def given_bundle(bundle: object) -> HapticBundle:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import NoReturn, TypeVar
 
-from scene2hap import checks
-from scene2hap.counted import first_of
+from scene2hap.common import checks
+from scene2hap.common.counted import first_of
 from scene2hap.errors import UnknownObject
 
 Thing = TypeVar("Thing")

@@ -9,7 +9,7 @@ from typing import Any
 
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.override import ANY_STATE, BY_STATE, Override
-from scene2hap.checks import did_you_mean, shown
+from scene2hap.common.checks import did_you_mean, shown
 from scene2hap.errors import BundleError
 from scene2hap.haptics import ObjectHaptics, SourceState, unmet_needs
 from scene2hap.materials import Material

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from scene2hap import checks
 from scene2hap.audio.clip import Credit
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle.by_name import ByName, by_name
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import Override
+from scene2hap.common import checks
 from scene2hap.errors import BundleError, UnknownObject
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics
 from scene2hap.scene.snapshot import SceneSnapshot

@@ -11,11 +11,11 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from scene2hap import checks
 from scene2hap.bundle.override import Override
+from scene2hap.common import checks
+from scene2hap.common.printable import read_json
+from scene2hap.common.text_files import read_small_text
 from scene2hap.errors import BundleError, reason_of
-from scene2hap.printable import read_json
-from scene2hap.text_files import read_small_text
 
 FORMAT, VERSION = "scene2hap/overrides", 1
 FIELDS = frozenset(one.name for one in fields(Override)) - {"clip"}

@@ -6,8 +6,8 @@ import stat
 from pathlib import Path
 from typing import Any
 
+from scene2hap.common.printable import parse_json
 from scene2hap.errors import BundleError, BundleIncomplete, reason_of
-from scene2hap.printable import parse_json
 
 MAX_FILE_BYTES = 1 << 28
 """Larger JSON and mesh files are rejected before they are read; assumed: 256 MiB are some 7 million triangles."""

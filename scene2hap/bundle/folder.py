@@ -25,7 +25,6 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from scene2hap import checks
 from scene2hap.audio.clip import Credit
 from scene2hap.audio.files import encoded, read_clip
 from scene2hap.bundle.checking import warn_of_unknown_fields
@@ -37,8 +36,9 @@ from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.manifest import FORMAT, MANIFEST, VERSION, read_manifest, require_folder
 from scene2hap.bundle.override import Override
 from scene2hap.bundle.sounds import SoundReader, file_stems, write_loops
+from scene2hap.common import checks
+from scene2hap.common.file_stamp import Stamp
 from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2HapError, SceneError, unwritable
-from scene2hap.file_stamp import Stamp
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.materials import Material, lookup
 from scene2hap.scene import json as scene_json

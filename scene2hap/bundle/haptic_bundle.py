@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, overload
 
-from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.gain_warning import warn_if_percent
 from scene2hap.bundle.checking import require_plausible
@@ -17,9 +16,10 @@ from scene2hap.bundle.corrections import read_corrections
 from scene2hap.bundle.folder import read_bundle, write_bundle
 from scene2hap.bundle.notebook import bundle_table
 from scene2hap.bundle.override import ANY_STATE, BY_STATE, MAKES_LOOPS, Override
-from scene2hap.calls import clear_calls
 from scene2hap.clips.haptic_clip import HapticClip
-from scene2hap.counted import counted
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_calls
+from scene2hap.common.counted import counted
 from scene2hap.errors import BundleError
 from scene2hap.materials import Material
 from scene2hap.scene.plausibility.check import too_heavy

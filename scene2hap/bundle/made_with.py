@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from scene2hap import checks
 from scene2hap.audio.spreading import SpreadLimits
+from scene2hap.common import checks
 from scene2hap.errors import BundleError, ConfigError
 from scene2hap.haptics import ActuatorProfile
 

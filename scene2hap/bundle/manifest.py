@@ -7,8 +7,8 @@ import re
 from pathlib import Path
 from typing import Any
 
-from scene2hap import checks
 from scene2hap.bundle.files import read_json
+from scene2hap.common import checks
 from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError
 
 FORMAT = "scene2hap/bundle"

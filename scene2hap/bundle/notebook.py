@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scene2hap.bundle.contents import BundleContents
-from scene2hap.counted import counted
-from scene2hap.html_tables import html_table, number
+from scene2hap.common.counted import counted
+from scene2hap.common.html_tables import html_table, number
 
 _COLUMNS = (
     "object", "object type", "material", "state", "intensity [-]", "sound [Hz]", "vibration [Hz]",

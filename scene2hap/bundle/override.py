@@ -7,12 +7,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
-from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.files import as_stored
-from scene2hap.calls import clear_construction
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.clips.reading import as_vibration, read_any_clip
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction
 from scene2hap.errors import BundleError
 from scene2hap.haptics import LONGEST_PASSAGE_S, ObjectHaptics, SourceState, checked_mass_kg
 from scene2hap.materials import Material, lookup

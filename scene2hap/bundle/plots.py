@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
 from scene2hap.audio.plots import draw_loop
 from scene2hap.bundle.contents import BundleContents
+from scene2hap.common import checks
+from scene2hap.common.plots import TOUCH, add_legend, new_figure, plain, set_note, set_title
 from scene2hap.errors import BundleError
-from scene2hap.plots import TOUCH, add_legend, new_figure, plain, set_note, set_title
 from scene2hap.scene.from_above import NOTHING, TopView
 from scene2hap.scene.plots import draw_edges, draw_values
 

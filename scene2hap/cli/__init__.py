@@ -13,7 +13,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NoReturn
 
 from scene2hap import __version__
-from scene2hap.checks import did_you_mean
 from scene2hap.cli import (
     audition,
     bake,
@@ -34,8 +33,9 @@ from scene2hap.cli import (
     streams,
 )
 from scene2hap.cli.console import Console
+from scene2hap.common.checks import did_you_mean
+from scene2hap.common.printable import printable
 from scene2hap.errors import Scene2HapError
-from scene2hap.printable import printable
 
 COMMANDS = (
     demo,

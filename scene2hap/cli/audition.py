@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from scene2hap import checks
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
 from scene2hap.cli.play import UPDATE_S, Actuator, silence
 from scene2hap.cli.shared_options import given_spec, session_config
+from scene2hap.common import checks
 from scene2hap.devices import SINKS
 from scene2hap.devices.wav import WavSink
 from scene2hap.errors import ConfigError

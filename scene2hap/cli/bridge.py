@@ -19,8 +19,8 @@ from typing import Any
 
 from scene2hap.cli.console import Console
 from scene2hap.cli.shared_options import given_spec
+from scene2hap.common.settings import read_settings
 from scene2hap.errors import ConfigError
-from scene2hap.settings import read_settings
 
 HELP = "serve engines in other languages over a WebSocket"
 

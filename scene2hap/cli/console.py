@@ -16,7 +16,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 
 from scene2hap.cli import streams
-from scene2hap.printable import aligned, printable, printable_json
+from scene2hap.common.printable import aligned, printable, printable_json
 
 Tell = Callable[[str, str, int, int], None]
 """Called with (stage, item, number done, total number)."""

@@ -20,8 +20,8 @@ from scene2hap.cli.tables import bundle_outcome, show_bundle
 from scene2hap.demo import kitchen_path, tour_path
 from scene2hap.scene.load import load_scene
 from scene2hap.session import SessionConfig
-from scene2hap.touch_track import TouchTrack
-from scene2hap.track_player import PlayedFrame
+from scene2hap.session.touch_track import TouchTrack
+from scene2hap.session.track_player import PlayedFrame
 
 HELP = "bake and play the built-in kitchen"
 

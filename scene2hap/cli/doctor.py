@@ -20,10 +20,11 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import __version__, checks
+from scene2hap import __version__
 from scene2hap.cli.console import Console
 from scene2hap.cli.list import GROUPS
 from scene2hap.cli.shared_options import given_spec
+from scene2hap.common import checks
 from scene2hap.compiled import are_in_use
 from scene2hap.devices import SINKS, loopback_latency
 from scene2hap.devices.protocol import ActuatorSink, Block, SinkEvent, SinkFormat, has_clock

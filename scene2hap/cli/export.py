@@ -19,7 +19,7 @@ from typing import Any
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
 from scene2hap.cli.shared_options import given_spec, session_config
-from scene2hap.counted import counted
+from scene2hap.common.counted import counted
 from scene2hap.errors import ConfigError
 from scene2hap.export import EXPORTS, ExportReport, export_bundle, export_clip
 from scene2hap.export.exporting import ALL

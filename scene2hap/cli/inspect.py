@@ -25,11 +25,11 @@ from scene2hap.bundle import HapticBundle, file_stems
 from scene2hap.cli.bake import add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
 from scene2hap.cli.tables import bundle_outcome, scene_outcome, show_bundle, show_scene
-from scene2hap.counted import counted
+from scene2hap.common.counted import counted
+from scene2hap.common.text_files import write_whole
 from scene2hap.errors import SceneError, unwritable
 from scene2hap.scene.capture import capture_images, contact_sheet, plan_view, render_all
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.text_files import write_whole
 
 HELP = "show tables of a scene or a bundle"
 

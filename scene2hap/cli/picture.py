@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from scene2hap.track_player import PlayedFrame
+from scene2hap.session.track_player import PlayedFrame
 
 WIDTH, ROW, MARGIN, TOP = 1500, 260, 70, 50
 _INK, _GRID, _BAND = "#22313f", "#d5dbe1", "#eef2f5"

@@ -19,7 +19,6 @@ from rich.live import Live
 from rich.text import Text
 
 from scene2hap.bundle import HapticBundle
-from scene2hap.bundle_watch import BundleWatch
 from scene2hap.cli.console import Console
 from scene2hap.cli.plan import Plan
 from scene2hap.cli.shared_options import given_spec, session_config
@@ -27,6 +26,7 @@ from scene2hap.devices import SINKS
 from scene2hap.devices.protocol import ActuatorSink, SinkEvent, has_clock
 from scene2hap.errors import ConfigError
 from scene2hap.session import HapticFrame, HapticSession, Touch
+from scene2hap.session.bundle_watch import BundleWatch
 
 HELP = "play a bundle with the arrow keys"
 

@@ -16,8 +16,8 @@ from scene2hap.cli.console import Console
 from scene2hap.cli.shared_options import session_config
 from scene2hap.devices.wav import WavSink
 from scene2hap.session import HapticSession, SessionConfig, UserProfile
-from scene2hap.touch_track import TouchTrack
-from scene2hap.track_player import PlayedFrame, play_track
+from scene2hap.session.touch_track import TouchTrack
+from scene2hap.session.track_player import PlayedFrame, play_track
 
 HELP = "render a file of touches on a bundle to a WAV file"
 

@@ -17,8 +17,8 @@ from typing import Any
 
 from scene2hap.baking.config import BakeConfig
 from scene2hap.cli.console import Console
+from scene2hap.common.settings import Settings
 from scene2hap.session import SessionConfig, UserProfile
-from scene2hap.settings import Settings
 
 HELP = "list every setting with its default"
 

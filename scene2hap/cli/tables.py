@@ -10,7 +10,7 @@ from scene2hap.audio.haptic_loop import HapticLoop, Sensation
 from scene2hap.audio.threshold import NOTICED_DB
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
-from scene2hap.counted import counted
+from scene2hap.common.counted import counted
 from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.wrappers.prices import Given, price_list

@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from scene2hap import checks
 from scene2hap.clips.haptic_clip import MAX_CLIP_S
+from scene2hap.common import checks
+from scene2hap.common.printable import parse_json
+from scene2hap.common.text_files import read_small
 from scene2hap.errors import ClipError
-from scene2hap.printable import parse_json
-from scene2hap.text_files import read_small
 
 MAX_BYTES = 1 << 27
 """Most bytes of a file; larger ones are refused before parsing (assumed: points up to `MAX_POINTS` take a tenth)."""

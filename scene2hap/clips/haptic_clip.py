@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.audio.clip import Credit
-from scene2hap.calls import clear_construction
+from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ClipError
 
 Values = NDArray[np.float64]

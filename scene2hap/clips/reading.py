@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 
-from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.files import read_clip
 from scene2hap.clips import ahap, haptic_format
@@ -15,6 +14,7 @@ from scene2hap.clips.ahap import read_ahap
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.clips.haptic_format import read_haptic
 from scene2hap.clips.synthesis import RATE_HZ, synthesize
+from scene2hap.common import checks
 from scene2hap.errors import ClipError
 
 SUFFIXES = (haptic_format.SUFFIX, ahap.SUFFIX)

@@ -10,10 +10,10 @@ import os
 from collections.abc import Hashable
 from weakref import WeakValueDictionary
 
-from scene2hap import checks
+from scene2hap.common import checks
+from scene2hap.common.forks import lock_of_process
 from scene2hap.devices.protocol import ActuatorSink, parts_of
 from scene2hap.errors import ConfigError, DeviceError
-from scene2hap.forks import lock_of_process
 
 _LOCK = lock_of_process()
 _HELD: WeakValueDictionary[Hashable, object] = WeakValueDictionary()

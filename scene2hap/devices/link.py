@@ -22,8 +22,8 @@ from typing import Protocol, Self
 
 import numpy as np
 
-from scene2hap.calls import not_pickled
-from scene2hap.checks import represented
+from scene2hap.common.calls import not_pickled
+from scene2hap.common.checks import represented
 from scene2hap.devices.due_frames import Pace
 from scene2hap.devices.exclusive_use import claim, give_back
 from scene2hap.devices.protocol import Block, EventCallback, EventKind, Fill, SinkEvent, SinkFormat, SinkStats

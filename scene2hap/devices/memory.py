@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from scene2hap.calls import clear_calls
+from scene2hap.common.calls import clear_calls
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
 from scene2hap.devices.whole_frames import Pulled, WholeFrames
 from scene2hap.errors import DeviceError

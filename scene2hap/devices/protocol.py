@@ -9,7 +9,7 @@ from typing import Literal, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.calls import clear_construction
+from scene2hap.common.calls import clear_construction
 
 Block = NDArray[np.float32]
 """Samples (n_frames, n_channels) float32 in [-1, 1]."""

@@ -7,8 +7,8 @@ from collections import deque
 
 import numpy as np
 
-from scene2hap import checks
-from scene2hap.calls import clear_calls
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_calls
 from scene2hap.devices.exclusive_use import port_key
 from scene2hap.devices.framing.frames import (
     MAX_PAYLOAD,

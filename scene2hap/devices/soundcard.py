@@ -20,8 +20,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
-from scene2hap.calls import clear_calls
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_calls
 from scene2hap.devices import portaudio
 from scene2hap.devices.link import CarryOn, LiveSink
 from scene2hap.devices.playback_ring import PlaybackRing

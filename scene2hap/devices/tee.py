@@ -17,8 +17,8 @@ from typing import Any
 
 import numpy as np
 
-from scene2hap.calls import clear_calls
-from scene2hap.checks import shown
+from scene2hap.common.calls import clear_calls
+from scene2hap.common.checks import shown
 from scene2hap.devices.protocol import (
     ActuatorSink,
     Block,

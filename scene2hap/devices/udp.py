@@ -7,8 +7,8 @@ import time
 from collections.abc import Mapping
 from typing import Literal
 
-from scene2hap import checks
-from scene2hap.calls import clear_calls
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_calls
 from scene2hap.devices.datagrams import Datagrams
 from scene2hap.devices.due_frames import Pace
 from scene2hap.devices.framing.frames import MAX_PAYLOAD, FrameType, SampleFormat, clock_us, message, pcm, to_datagram

@@ -11,8 +11,8 @@ from typing import Literal
 
 import numpy as np
 
-from scene2hap import checks
-from scene2hap.calls import clear_calls
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_calls
 from scene2hap.devices.exclusive_use import port_key
 from scene2hap.devices.framing import vhp
 from scene2hap.devices.link import CarryOn, LiveSink

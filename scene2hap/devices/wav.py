@@ -9,13 +9,13 @@ from pathlib import Path
 
 import soundfile
 
-from scene2hap import checks
-from scene2hap.calls import clear_calls
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_calls
+from scene2hap.common.text_files import draft_path, path_in_c, put_in_place
 from scene2hap.devices.exclusive_use import claim, give_back
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
 from scene2hap.devices.whole_frames import Pulled, WholeFrames
 from scene2hap.errors import ConfigError, DeviceError, reason_of
-from scene2hap.text_files import draft_path, path_in_c, put_in_place
 
 
 @clear_calls

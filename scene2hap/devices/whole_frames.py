@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.devices.protocol import Block
 from scene2hap.errors import SessionError
 

@@ -7,9 +7,9 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from scene2hap import checks
-from scene2hap.calls import clear_calls
-from scene2hap.counted import first_of
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_calls
+from scene2hap.common.counted import first_of
 from scene2hap.engines.adapter import EngineAdapter
 from scene2hap.engines.changes import Changes
 from scene2hap.errors import ConfigError, SceneError

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, Literal
 
-from scene2hap import checks
-from scene2hap.calls import clear_calls
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_calls
 from scene2hap.engines.link import EngineLink
 from scene2hap.errors import ConfigError
 from scene2hap.scene.engines import mujoco as engine

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from scene2hap.calls import clear_calls
+from scene2hap.common.calls import clear_calls
 from scene2hap.engines.link import EngineLink
 from scene2hap.scene.engines import panda3d as engine
 from scene2hap.scene.grouping.groups import Grouping

@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from scene2hap import checks
 from scene2hap.audio.distinctness import FREQUENCY_WEBER
-from scene2hap.calls import clear_construction
 from scene2hap.clips.haptic_clip import RANGE_HZ, Curve, HapticClip, Transient
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ConfigError
 from scene2hap.export.envelope import FLOOR_DB, Envelope, Pulse, Signal, decibels
 from scene2hap.export.fidelity import fidelity

@@ -14,13 +14,14 @@ from typing import Any
 
 import numpy as np
 
-from scene2hap import checks
 from scene2hap.audio.files import read_clip
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.sounds import file_stem, file_stems
-from scene2hap.calls import clear_call
 from scene2hap.clips.reading import is_haptic_clip, read_haptic_clip
 from scene2hap.clips.synthesis import RATE_HZ, synthesize
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_call
+from scene2hap.common.text_files import write_whole
 from scene2hap.devices.memory import MemorySink
 from scene2hap.errors import ConfigError, ExportError, unwritable
 from scene2hap.export.fidelity import fidelity
@@ -29,9 +30,8 @@ from scene2hap.export.protocol import EXPORTS, Exported, Exporter, json_bytes
 from scene2hap.export.report import ExportReport, FileReport
 from scene2hap.export.track import Channel, Track
 from scene2hap.session import HapticSession, SessionConfig
-from scene2hap.text_files import write_whole
-from scene2hap.touch_track import TouchTrack
-from scene2hap.track_player import play_track
+from scene2hap.session.touch_track import TouchTrack
+from scene2hap.session.track_player import play_track
 
 ALL = "all"
 Progress = Callable[[str, str, int, int], None]

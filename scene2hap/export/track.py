@@ -10,9 +10,9 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from scene2hap import checks
-from scene2hap.calls import clear_construction
 from scene2hap.clips.haptic_clip import HapticClip
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ExportError
 from scene2hap.export.envelope import Envelope, analyse
 

@@ -15,8 +15,8 @@ from collections.abc import Awaitable, Callable, Collection, Iterable, Mapping, 
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar, cast
 
-from scene2hap import checks
-from scene2hap.calls import clear_call
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_call
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, Scene2HapError
 from scene2hap.haptics import (

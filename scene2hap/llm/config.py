@@ -7,7 +7,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from scene2hap.settings import Settings
+from scene2hap.common.settings import Settings
 
 
 class InferenceConfig(Settings):

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, Protocol, get_args, runtime_checkable
 
-from scene2hap.calls import clear_construction
+from scene2hap.common.calls import clear_construction
 
 Component = Literal["scene_analyzer", "object_analyzer", "material_estimator", "vibration_describer"]
 """The four chained components of the paper, section "LLM Workflow and Components"."""

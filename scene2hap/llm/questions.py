@@ -10,8 +10,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from scene2hap import checks
-from scene2hap.counted import counted
+from scene2hap.common import checks
+from scene2hap.common.counted import counted
 from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError
 from scene2hap.llm.answers import Answer, AnswerType, read_answer
 from scene2hap.llm.backends import chat

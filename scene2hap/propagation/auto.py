@@ -22,9 +22,9 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
-from scene2hap.blas_threads import one_blas_thread
-from scene2hap.calls import clear_construction
+from scene2hap.common import checks
+from scene2hap.common.blas_threads import one_blas_thread
+from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.auto_level import peak_level_db

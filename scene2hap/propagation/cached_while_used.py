@@ -13,7 +13,7 @@ from functools import update_wrapper
 from typing import Generic, ParamSpec, TypeVar
 from weakref import WeakValueDictionary
 
-from scene2hap.forks import lock_of_process
+from scene2hap.common.forks import lock_of_process
 from scene2hap.propagation.coupled.byte_bounded_lru import Sized
 
 KEPT_BYTES = 128 * 2**20

@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap.calls import clear_construction
+from scene2hap.common.calls import clear_construction
 from scene2hap.haptics import Bands
 from scene2hap.propagation.paths.prepared_paths import cheapest_arrivals
 from scene2hap.propagation.points import object_points

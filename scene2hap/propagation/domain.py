@@ -9,7 +9,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation.plate import Plate, require_frequencies, require_plate
 from scene2hap.scene.scene_warning import warn_of

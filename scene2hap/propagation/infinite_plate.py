@@ -22,8 +22,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap.blas_threads import one_blas_thread
-from scene2hap.calls import clear_construction
+from scene2hap.common.blas_threads import one_blas_thread
+from scene2hap.common.calls import clear_construction
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.rigid import RigidMotion, is_stiff

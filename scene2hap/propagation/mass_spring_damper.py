@@ -23,8 +23,8 @@ import numpy as np
 from numpy.polynomial.polynomial import polyval
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
-from scene2hap.calls import clear_construction
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import ElasticBody

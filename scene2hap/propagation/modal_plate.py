@@ -19,7 +19,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.calls import clear_construction
+from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import ElasticBody

@@ -8,8 +8,8 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
-from scene2hap.blas_threads import one_blas_thread
+from scene2hap.common import checks
+from scene2hap.common.blas_threads import one_blas_thread
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import AROUND

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
+from scene2hap.common import checks
+from scene2hap.common.plots import add_legend, new_figure, plain, set_title
+from scene2hap.common.text_files import draft_of
 from scene2hap.errors import ModelDomainError
-from scene2hap.plots import add_legend, new_figure, plain, set_title
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.protocol import ContactNetwork, PropagationField
-from scene2hap.text_files import draft_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.compiled import compiled
 from scene2hap.errors import ModelDomainError
 from scene2hap.scene.pose import Pose

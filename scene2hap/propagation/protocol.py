@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
-from scene2hap.calls import clear_construction
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.plugins import Members, lacking

@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.calls import clear_construction
+from scene2hap.common.calls import clear_construction
 from scene2hap.haptics import Bands
 from scene2hap.propagation.exponential_plate import ExponentialPlate
 from scene2hap.propagation.plate import Plate

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.compiled import compiled
 from scene2hap.errors import ConfigError, SessionError
 from scene2hap.render.limiter import THRESHOLD, decays, limit_in_place, turn_down_in_place

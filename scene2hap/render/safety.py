@@ -27,7 +27,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import ActuatorProfile
 from scene2hap.render.guards import Gate, PeakGuard, PowerGuard, SlewGuard

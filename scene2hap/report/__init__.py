@@ -11,16 +11,16 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from scene2hap import checks
 from scene2hap.bundle import HapticBundle
-from scene2hap.calls import clear_call
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_call
+from scene2hap.common.text_files import write_whole
 from scene2hap.errors import ConfigError, unwritable
 from scene2hap.report.document import report_document
 from scene2hap.report.felt_map import MODELS
 from scene2hap.report.page import assemble
 from scene2hap.report.surface_points import MOST_POINTS
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.text_files import write_whole
 
 __all__ = ["report_document", "write_report"]
 

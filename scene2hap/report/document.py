@@ -15,13 +15,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import __version__, checks
+from scene2hap import __version__
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle, Override
 from scene2hap.bundle.account import read_account
 from scene2hap.bundle.arguments import given_bundle
-from scene2hap.calls import clear_call
-from scene2hap.counted import first_of
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_call
+from scene2hap.common.counted import first_of
 from scene2hap.errors import ConfigError, UnknownMaterial
 from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
 from scene2hap.materials import Material, lookup

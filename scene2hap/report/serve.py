@@ -8,9 +8,9 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 from scene2hap.bundle.corrections import parsed_corrections
+from scene2hap.common.printable import parse_json
+from scene2hap.common.text_files import write_whole
 from scene2hap.errors import ConfigError, Scene2HapError
-from scene2hap.printable import parse_json
-from scene2hap.text_files import write_whole
 
 MAX_BYTES = 1 << 20
 """Most bytes of one file of corrections; assumed: corrections of some thousand objects."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import SceneError
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot

@@ -8,10 +8,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-from scene2hap import checks
+from scene2hap.common import checks
+from scene2hap.common.text_files import is_there
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
-from scene2hap.text_files import is_there
 
 HABITAT_SUFFIX = ".scene_instance.json"
 

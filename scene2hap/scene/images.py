@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol, overload
 
-from scene2hap.calls import clear_attributes
+from scene2hap.common.calls import clear_attributes
 
 
 @dataclass(frozen=True)

@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
-from scene2hap import checks
+from scene2hap.common import checks
+from scene2hap.common.printable import read_json
 from scene2hap.errors import SceneError
-from scene2hap.printable import read_json
 from scene2hap.scene import limits
 from scene2hap.scene.copies import as_copy, material_names
 from scene2hap.scene.files import HABITAT_SUFFIX

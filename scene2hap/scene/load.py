@@ -10,11 +10,11 @@ from typing import Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 
-from scene2hap import checks
-from scene2hap.calls import clear_call
-from scene2hap.counted import counted
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_call
+from scene2hap.common.counted import counted
+from scene2hap.common.printable import writable
 from scene2hap.errors import SceneError, SceneFormatError
-from scene2hap.printable import writable
 from scene2hap.scene import limits
 from scene2hap.scene.files import HABITAT_SUFFIX, is_habitat, read_bytes, scene_stem
 from scene2hap.scene.grouping.empty_names import says_nothing

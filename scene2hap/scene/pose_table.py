@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
-from scene2hap.calls import clear_construction
-from scene2hap.counted import counted
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction
+from scene2hap.common.counted import counted
 from scene2hap.errors import SceneError
 from scene2hap.scene.pose import LEAST_LENGTH, UNIT_TOLERANCE, Pose
 

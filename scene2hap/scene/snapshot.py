@@ -13,11 +13,11 @@ from typing import ClassVar, SupportsIndex, overload
 
 from pydantic import InstanceOf
 
-from scene2hap import checks
-from scene2hap.calls import clear_calls
-from scene2hap.counted import counted
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_calls
+from scene2hap.common.counted import counted
+from scene2hap.common.html_tables import html_table, number
 from scene2hap.errors import CallError, SceneError, UnknownObject
-from scene2hap.html_tables import html_table, number
 from scene2hap.scene.copies import as_copy
 from scene2hap.scene.images import ImageSet
 from scene2hap.scene.objects import (

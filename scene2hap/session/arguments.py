@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any, NoReturn
 
-from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
+from scene2hap.common import checks
 from scene2hap.devices.protocol import ActuatorSink
 from scene2hap.errors import BundleError, ConfigError, SceneError, SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
-from scene2hap import checks
 from scene2hap.audio.actuators import actuator_profile
+from scene2hap.common import checks
+from scene2hap.common.settings import Settings
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import ActuatorProfile, Bands
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.exponential_plate import ExponentialPlate
 from scene2hap.propagation.protocol import CoupledModel, PropagationModel
-from scene2hap.settings import Settings
 
 MIN_RAMP_S = 0.010
 """Shortest ramp of a gain change; see `scene2hap.render.mixer`."""

@@ -17,8 +17,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.counted import first_of
-from scene2hap.html_tables import html_table
+from scene2hap.common.counted import first_of
+from scene2hap.common.html_tables import html_table
 from scene2hap.propagation.exponential_plate import ExponentialPlate, PathCosts
 from scene2hap.propagation.live import PricedField
 from scene2hap.propagation.paths.traced_paths import Leg, PathsToPoint, Point

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
-from scene2hap.calls import clear_attributes, clear_call, clear_construction
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_attributes, clear_call, clear_construction
 from scene2hap.errors import SessionError, UnknownObject
 
 _TOUCH = "A touch is Touch(hand, object_id, point_m), its point in the world."

@@ -18,15 +18,15 @@ from typing import TYPE_CHECKING, Any, NoReturn, Self, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.arguments import given_pair
 from scene2hap.bundle.contents import require_same_scene
 from scene2hap.bundle.differences import changed_objects
-from scene2hap.calls import clear_calls, read_only
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_calls, read_only
+from scene2hap.common.counted import counted
 from scene2hap.contact.graph import ContactChange
-from scene2hap.counted import counted
 from scene2hap.devices.protocol import ActuatorSink, Block
 from scene2hap.devices.whole_frames import WholeFrames
 from scene2hap.errors import SceneError, SessionError

@@ -19,7 +19,7 @@ import numpy as np
 
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
-from scene2hap.counted import counted
+from scene2hap.common.counted import counted
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics
 from scene2hap.scene.geometry import bounds_of, distances
 from scene2hap.scene.objects import Contact

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
+from scene2hap.common import checks
+from scene2hap.common.plots import TOUCH, add_legend, new_figure, plain, set_title
 from scene2hap.errors import SessionError
-from scene2hap.plots import TOUCH, add_legend, new_figure, plain, set_title
 from scene2hap.scene.from_above import NOTHING, TopView
 from scene2hap.scene.plots import EMPTY, LINES, draw_edges, draw_values
 from scene2hap.scene.snapshot import SceneSnapshot

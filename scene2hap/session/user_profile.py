@@ -18,13 +18,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, field_validator
 
-from scene2hap import checks
+from scene2hap.common import checks
+from scene2hap.common.settings import Settings
+from scene2hap.common.text_files import write_whole
 from scene2hap.errors import ConfigError, unwritable
 from scene2hap.haptics import Bands
 from scene2hap.session.hand_gains import HandGains
 from scene2hap.session.mix.sources import LoopRow
-from scene2hap.settings import Settings
-from scene2hap.text_files import write_whole
 
 MOST_DB = 40.0
 """Bound on every level of a profile: a factor of 100."""

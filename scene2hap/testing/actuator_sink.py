@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from scene2hap.checks import described
+from scene2hap.common.checks import described
 from scene2hap.devices import SINKS
 from scene2hap.devices.protocol import ActuatorSink, Block, SinkEvent, SinkFormat, SinkStats, has_clock
 from scene2hap.plugins import lacking

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from scene2hap.checks import described
+from scene2hap.common.checks import described
 from scene2hap.scene.capture.protocol import RendererFactory, Selection, drawn, made_renderer
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import frame

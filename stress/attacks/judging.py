@@ -11,7 +11,7 @@ import numpy as np
 
 def printed(error: Exception) -> int:
     """Print an error of scene2hap as the command line does; its text must be printable. Returns 1."""
-    from scene2hap.printable import printable
+    from scene2hap.common.printable import printable
 
     print(f"scene2hap: error: {printable(str(error))[:2000]}", file=sys.stderr)
     return 1

@@ -58,7 +58,7 @@ SPELLINGS: dict[str, Spelling] = {
 }  # fmt: skip
 
 NOT_COVERED = frozenset({"base85", "ascii85", "uuencode", "rot13", "gzip in base64", "zlib in hex", "hexdump"})
-"""Encodings with punctuation, ciphers, compression, and lines of 16 bytes. See `scene2hap.key_search`."""
+"""Encodings with punctuation, ciphers, compression, and lines of 16 bytes. See `scene2hap.common.key_search`."""
 AROUND: dict[str, tuple[str, str]] = {
     "bare": ("", ""), "sentence": ("Incorrect API key provided: ", ". You can find yours at"), "quoted": ('{"error": "', '"}'), "letters": ("abc", "xyz"), "tag": ("<b>", "</b>"),
     "digits": ("12", "34"), "header": ("authorization: Bearer ", "\r\n"), "long": ("word " * 4000, " word" * 4000), "percent": ("%", "%"), "slashes": ("\\" * 9, "\\" * 9), "brackets": ("[b'", "', None]"),
@@ -76,7 +76,7 @@ def attacks(seed: int, work: Path) -> Iterator[Attack]:
 
 def shown(name: str, around: str) -> str:
     """Text with a key in a spelling, after scrubbing."""
-    from scene2hap.secret import Secret
+    from scene2hap.common.secret import Secret
 
     before, after = AROUND[around]
     return Secret(KEY).scrub(before + SPELLINGS[name](KEY) + after)

@@ -11,8 +11,8 @@ import sys
 import traceback
 from pathlib import Path
 
+from scene2hap.common.printable import printable
 from scene2hap.errors import Scene2HapError
-from scene2hap.printable import printable
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
@@ -28,7 +28,7 @@ def main(kind: str, where: str) -> None:
 
         print(len(read_clip(Path(where)).samples))
     elif kind == "page":
-        from scene2hap import web
+        from scene2hap.common import web
 
         print(printable(web.get(where, web.Limits(2.0, 1 << 20)).text[:1000]))
     else:

@@ -59,11 +59,11 @@ def _completion(folder: Path) -> Path:
 
 def _served(folder: Path) -> object:
     """Give the replies of a server to the parts that read them, each with status 200 and an error."""
+    from scene2hap.common.web import WebReply
     from scene2hap.errors import Scene2HapError
     from scene2hap.llm.backends import chat, server_models
     from scene2hap.llm.backends.dialects import Decoding, OllamaChat
     from scene2hap.llm.batch.service import BatchService
-    from scene2hap.web import WebReply
 
     class Server:
         base_url, timeout_s = "http://server/v1", 1.0

@@ -38,8 +38,8 @@ def _track_csv(folder: Path) -> Path:
 
 def _toured(path: Path) -> object:
     from scene2hap import HapticSession, MemorySink
-    from scene2hap.touch_track import TouchTrack
-    from scene2hap.track_player import play_track
+    from scene2hap.session.touch_track import TouchTrack
+    from scene2hap.session.track_player import play_track
     from scenes import table_with_two_phones
 
     track = TouchTrack.load(path)

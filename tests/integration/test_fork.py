@@ -43,7 +43,7 @@ def run(code: str, *arguments: str) -> None:
 
 def test_a_lock_that_another_thread_holds_is_open_in_the_child() -> None:
     run("""
-from scene2hap import blas_threads
+from scene2hap.common import blas_threads
 is_inside, end, libraries = threading.Event(), threading.Event(), blas_threads._libraries
 
 def slow():

@@ -10,7 +10,7 @@ import pytest
 import scene2hap
 from scene2hap import Box, HapticSession, Pose, SceneObject, SceneSnapshot
 from scene2hap.bundle.by_name import ByName
-from scene2hap.calls import clear_attributes
+from scene2hap.common.calls import clear_attributes
 from scene2hap.errors import CallError, ReadOnlyAttribute, Scene2HapError, UnknownAttribute, UnknownObject
 
 CLASSES = [

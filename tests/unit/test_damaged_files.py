@@ -28,6 +28,7 @@ from scene2hap.audio.sources.disk_cache import Store
 from scene2hap.audio.sources.library import FolderLibrary
 from scene2hap.baking import BakeConfig
 from scene2hap.baking.many.record import read_record
+from scene2hap.common.web import WebReply
 from scene2hap.errors import AudioError, BadAnswer, ConfigError, Scene2HapError, SceneError, SessionError
 from scene2hap.haptics import VibrationDescription
 from scene2hap.llm.backends.chat import counts
@@ -38,8 +39,7 @@ from scene2hap.llm.validation import find_fault
 from scene2hap.llm.wrappers import CacheBackend, RepairBackend
 from scene2hap.report.account import account_table
 from scene2hap.scene.capture.given_pictures import GivenPictures
-from scene2hap.touch_track import TouchTrack
-from scene2hap.web import WebReply
+from scene2hap.session.touch_track import TouchTrack
 from scenes import table_with_two_phones
 
 LONGEST = 1500

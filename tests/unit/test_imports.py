@@ -88,7 +88,7 @@ def test_packages_are_reachable_as_attributes() -> None:
 
 
 def test_completion_offers_public_names_and_packages_alone() -> None:
-    shown = """import scene2hap, scene2hap.checks, scene2hap.touch_track
+    shown = """import scene2hap, scene2hap.common.checks, scene2hap.session.touch_track
 private = {name for name in dir(scene2hap) if name[:1] == "_" and name[:2] != "__"}
 assert not private, private
 others = {name for name in dir(scene2hap) if name[:1] != "_"} - {*scene2hap.__all__}
@@ -137,4 +137,4 @@ def test_misspelt_import_suggests_a_name() -> None:
 
 
 def test_submodules_are_imported_by_name() -> None:
-    assert "scene2hap.checks" in modules_after("from scene2hap import checks, bundle_watch")
+    assert "scene2hap.contact_needs" in modules_after("from scene2hap import contact_needs, haptics")

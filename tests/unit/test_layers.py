@@ -10,11 +10,9 @@ PACKAGE = Path(__file__).parents[2] / "scene2hap"
 
 # From bottom to top; packages of one row never import each other.
 LAYERS = [
-    {"errors", "forks", "interpreter", "printable", "quiet_logs"},
-    {"blas_threads", "checks", "compiled", "key_search"},
-    {"calls"},
-    {"counted", "file_stamp", "html_tables", "plots", "plugins", "secret", "text_files", "web"},
-    {"settings"},
+    {"errors", "compiled"},
+    {"common"},
+    {"plugins"},
     {"scene"},
     {"contact", "materials", "contact_needs"},
     {"haptics"},
@@ -24,8 +22,6 @@ LAYERS = [
     {"llm", "render", "devices"},
     {"baking", "session"},
     {"engines"},
-    {"bundle_watch", "touch_track"},
-    {"track_player"},
     {"bridge", "export", "report"},
     {"testing"},
     {"demo"},
@@ -33,8 +29,15 @@ LAYERS = [
     {"__main__", "__pyinstaller"},
 ]
 HEIGHT = {package: height for height, packages in enumerate(LAYERS) for package in packages}
-PLAY_SIDE = ("session", "touch_track", "track_player", "render", "devices", "propagation", "contact")
-DESIGN_TIME_ONLY = ("scene2hap.llm", "scene2hap.baking", "scene2hap.audio.sources", "scene2hap.web", "httpx", "trimesh")
+PLAY_SIDE = ("session", "render", "devices", "propagation", "contact")
+DESIGN_TIME_ONLY = (
+    "scene2hap.llm",
+    "scene2hap.baking",
+    "scene2hap.audio.sources",
+    "scene2hap.common.web",
+    "httpx",
+    "trimesh",
+)
 
 
 def package_of(path: Path) -> str:

@@ -9,7 +9,7 @@ import pytest
 
 from scene2hap.bundle.corrections import read_corrections
 from scene2hap.errors import Scene2HapError, reason_of
-from scene2hap.touch_track import TouchTrack
+from scene2hap.session.touch_track import TouchTrack
 
 
 @pytest.mark.parametrize(

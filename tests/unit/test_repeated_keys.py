@@ -13,7 +13,7 @@ from scene2hap.cli.shared_options import given_spec
 from scene2hap.clips.reading import read_haptic_clip
 from scene2hap.errors import Scene2HapError
 from scene2hap.scene.capture.given_pictures import GivenPictures
-from scene2hap.touch_track import TouchTrack
+from scene2hap.session.touch_track import TouchTrack
 
 Reader = Callable[[Path], object]
 

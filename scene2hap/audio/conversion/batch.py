@@ -17,9 +17,9 @@ from scene2hap.audio.conversion.stream import FORMATS, Conversion, convert, sett
 from scene2hap.audio.files import SUFFIXES
 from scene2hap.audio.haptic_loop import LevelWarning
 from scene2hap.audio.tactile import DEFAULT_CONVERTER
-from scene2hap.counted import first_of
+from scene2hap.common.counted import first_of
+from scene2hap.common.text_files import drafts_of
 from scene2hap.errors import AudioError, Scene2HapError, unwritable
-from scene2hap.text_files import drafts_of
 
 _MOST_NAMED = 3
 

@@ -21,7 +21,6 @@ import numpy as np
 import soundfile
 from numpy.typing import NDArray
 
-from scene2hap import checks
 from scene2hap.audio.actuators import actuator_profile, is_flat
 from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.conversion.equalizer import Equalizer
@@ -41,9 +40,10 @@ from scene2hap.audio.protocol import (
 )
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.audio.tactile.sections import through_sections
+from scene2hap.common import checks
+from scene2hap.common.text_files import path_in_c
 from scene2hap.errors import AudioError, ConfigError
 from scene2hap.scene.scene_warning import warn_of
-from scene2hap.text_files import path_in_c
 
 FORMATS = {
     ".wav": ("WAV", "PCM_24"),

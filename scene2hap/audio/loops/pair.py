@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from scene2hap import checks
 from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.audio.conversion import convert_clip
@@ -24,6 +23,7 @@ from scene2hap.audio.loops.seam_search import (
 )
 from scene2hap.audio.loops.whole import is_between_silences, meets_itself, whole_loop
 from scene2hap.audio.protocol import ConversionContext, TactileConverter, follows_anchor
+from scene2hap.common import checks
 from scene2hap.errors import AudioError
 
 AUDIBLE_PEAK_DBFS = -1.0

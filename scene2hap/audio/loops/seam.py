@@ -22,8 +22,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
 from scene2hap.audio.clip import Samples
+from scene2hap.common import checks
 from scene2hap.errors import AudioError
 
 FadeLaw = Literal["linear", "equal-power"]

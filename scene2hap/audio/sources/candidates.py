@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import ConfigError
 
 MAX_CANDIDATES = 5

@@ -10,10 +10,10 @@ from __future__ import annotations
 import logging
 from collections.abc import Sequence
 
-from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.protocol import AudioSource
 from scene2hap.audio.sources.disk_cache import is_long_enough
+from scene2hap.common import checks
 from scene2hap.errors import AudioError, Scene2HapError
 from scene2hap.haptics import VibrationDescription
 from scene2hap.scene.scene_warning import warn_of

@@ -21,8 +21,8 @@ from scene2hap.audio.analysis import trim_silence
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import read_clip
 from scene2hap.audio.select import MIN_DURATION_S
+from scene2hap.common.text_files import draft_of, path_in_c, read_small
 from scene2hap.errors import AudioError, ConfigError, reason_of, unwritable
-from scene2hap.text_files import draft_of, path_in_c, read_small
 
 MAX_CLIP_S = 60.0
 """Longest sound from a service [s] (assumed: a loop needs 10 s)."""

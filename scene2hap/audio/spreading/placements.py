@@ -13,8 +13,8 @@ from pydantic import Field
 
 from scene2hap.audio.anchor import Anchor, reachable_hz
 from scene2hap.audio.distinctness import LEVEL_JND_DB, frequency_jnds
+from scene2hap.common.settings import Settings
 from scene2hap.haptics import ActuatorProfile
-from scene2hap.settings import Settings
 
 Array = NDArray[np.float64]
 

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scene2hap import checks
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.stages import LOWEST_FELT_HZ, ShiftStage, StageStream
+from scene2hap.common import checks
 from scene2hap.errors import ConfigError
 
 

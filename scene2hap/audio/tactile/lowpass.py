@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import scipy
 
-from scene2hap import checks
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.stages import SosStage, StageStream
+from scene2hap.common import checks
 from scene2hap.errors import ConfigError
 
 _HIGHEST_CUTOFF = 0.49

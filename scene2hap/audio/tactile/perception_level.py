@@ -23,10 +23,10 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from scene2hap import checks
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.stages import Signal, Stage, StageStream
+from scene2hap.common import checks
 from scene2hap.errors import ConfigError
 
 _FRAME_S = 4096 / 44_100

@@ -21,9 +21,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.stages import SosStage, StageStream
+from scene2hap.common import checks
 from scene2hap.errors import ConfigError
 
 _HIGHEST_CENTER = 0.49

@@ -19,13 +19,14 @@ from typing import Any
 
 from filelock import FileLock, Timeout
 
-from scene2hap import checks
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.many.pool import Pool, Submits
 from scene2hap.baking.many.record import WORK
 from scene2hap.baking.many.run import Progress, Run, scene_paths
-from scene2hap.calls import clear_attributes, clear_call
-from scene2hap.counted import counted
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_attributes, clear_call
+from scene2hap.common.counted import counted
+from scene2hap.common.settings import cache_folder
 from scene2hap.errors import BudgetExceeded, ConfigError, Scene2HapError
 from scene2hap.llm.backends.openai import OpenAIBackend
 from scene2hap.llm.batch import AnswerPending, BatchBackend, BatchFolder, BatchRow, BatchService, BatchStatus
@@ -34,7 +35,6 @@ from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.wrappers import CacheBackend, RepairBackend, identity, innermost
 from scene2hap.llm.wrappers.prices import price_list
 from scene2hap.llm.wrappers.stack import Wrapper
-from scene2hap.settings import cache_folder
 
 Scenes = Iterable[str | os.PathLike[str]]
 Config = BakeConfig | Mapping[str, Any] | str | os.PathLike[str] | None

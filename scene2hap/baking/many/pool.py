@@ -12,7 +12,7 @@ from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor
 from types import TracebackType
 from typing import Any, Protocol, TypeVar
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import ConfigError, MissingExtra
 
 Result = TypeVar("Result")

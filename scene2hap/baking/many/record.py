@@ -14,12 +14,12 @@ from typing import Any
 from scene2hap import __version__
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import converter_settings, described
+from scene2hap.common.text_files import read_small_text, write_whole
 from scene2hap.errors import ConfigError, SceneError, unwritable
 from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.wrappers import identity
 from scene2hap.scene.files import is_habitat, read_bytes
 from scene2hap.scene.formats.habitat import referenced_files
-from scene2hap.text_files import read_small_text, write_whole
 
 WORK, REPORT = ".bake-many", "report.json"
 """The folder beside the bundles for records and drafts, and the file with the report of the last run."""

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
-from scene2hap.calls import clear_attributes
-from scene2hap.counted import counted
+from scene2hap.common.calls import clear_attributes
+from scene2hap.common.counted import counted
 
 Outcome = Literal["baked", "kept", "failed"]
 

@@ -28,7 +28,6 @@ from typing import Any, TypeVar
 
 from filelock import AsyncFileLock
 
-from scene2hap import checks
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.many.pool import Pool, Submits
 from scene2hap.baking.many.record import REPORT, WORK, Record, read_record, scene_digest, settings_digest, write_record
@@ -37,7 +36,8 @@ from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds, take_
 from scene2hap.baking.scene import infer_corrected
 from scene2hap.bundle import HapticBundle, read_overrides
 from scene2hap.bundle.sounds import file_stem
-from scene2hap.calls import clear_call
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_call
 from scene2hap.errors import ConfigError, unwritable
 from scene2hap.llm.chain import Inference
 from scene2hap.llm.lexicon import LexiconBackend

@@ -10,8 +10,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from scene2hap import checks
 from scene2hap.clips.haptic_clip import Curve, HapticClip, Transient
+from scene2hap.common import checks
 from scene2hap.errors import ConfigError
 from scene2hap.export.curves import CurveSettings, curves_of, from_start
 from scene2hap.export.protocol import Exported, json_bytes

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import ConfigError
 from scene2hap.export.kinds.steps import amplitudes_at_steps, steps_as_clip
 from scene2hap.export.protocol import Exported, file_name, json_bytes, nanoseconds

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from scene2hap import checks
 from scene2hap.clips.haptic_clip import Curve, HapticClip
+from scene2hap.common import checks
 from scene2hap.errors import ConfigError
 from scene2hap.export.curves import CurveSettings, curves_of, from_start
 from scene2hap.export.protocol import Exported, file_name, json_bytes, nanoseconds

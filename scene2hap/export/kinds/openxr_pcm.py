@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import ConfigError
 from scene2hap.export.protocol import Exported, file_name, json_bytes
 from scene2hap.export.track import Channel, Track

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from scene2hap import checks
 from scene2hap.audio.files import encoded
+from scene2hap.common import checks
 from scene2hap.errors import ConfigError
 from scene2hap.export.protocol import Exported
 from scene2hap.export.track import Track

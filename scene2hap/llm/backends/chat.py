@@ -7,13 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from scene2hap.common.web import WebReply
 from scene2hap.errors import AnswerRefused, BackendUnavailable, BadAnswer
 from scene2hap.llm.backends.http_errors import failure, server_error
 from scene2hap.llm.finish_reasons import is_cut, is_filtered, is_whole
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.quoting import shown
 from scene2hap.llm.refusals import FILTERED_REQUEST, refusal_in
-from scene2hap.web import WebReply
 
 _AFTER_REFUSAL = "It gets no second try; rename or hide what it objects to, send no pictures, or choose another model."
 

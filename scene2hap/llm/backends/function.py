@@ -7,8 +7,8 @@ import json
 from collections.abc import Awaitable, Callable, Mapping
 from typing import Any
 
-from scene2hap import checks
-from scene2hap.calls import clear_construction, misfit
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction, misfit
 from scene2hap.errors import ConfigError
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 

@@ -1,8 +1,8 @@
 """The HTTP client of the backends: send JSON or a file, return a reply or raise one of our errors.
 
 The key is protected. A single line reveals it, directly into the header. Every reply is searched for the key before
-other code reads it, and no traceback from here has the header in a local variable. `scene2hap.web` does the exchange,
-with limits on bytes and seconds.
+other code reads it, and no traceback from here has the header in a local variable. `scene2hap.common.web` does the
+exchange, with limits on bytes and seconds.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
-from scene2hap import checks, web
+from scene2hap.common import checks, web
+from scene2hap.common.secret import Secret
 from scene2hap.errors import BackendError, ConfigError
 from scene2hap.llm.backends.pace import Pace
-from scene2hap.secret import Secret
 
 if TYPE_CHECKING:
-    from scene2hap.web import Transport
+    from scene2hap.common.web import Transport
 
 _LOG = logging.getLogger(__name__)
 

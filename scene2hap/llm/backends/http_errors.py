@@ -10,9 +10,9 @@ import time
 from dataclasses import dataclass
 from typing import Any
 
+from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable
 from scene2hap.llm.backends.retry_after import LONGEST_WAIT_S, reset_wait_s, stated_wait_s
-from scene2hap.web import WebReply
 
 _RETRYABLE = frozenset({408, 409, 429})
 _OUT_OF_MONEY = frozenset(

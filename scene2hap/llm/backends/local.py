@@ -10,8 +10,10 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any, Literal
 
-from scene2hap import checks
-from scene2hap.calls import clear_construction
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction
+from scene2hap.common.secret import Secret
+from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.backends import chat, server_models
 from scene2hap.llm.backends.dialects import LADDER, ChatCompletions, Decoding, Dialect, OllamaChat, Rung
@@ -21,11 +23,9 @@ from scene2hap.llm.json_text import first_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.schema import fields_in_words
 from scene2hap.scene.scene_warning import warn_of
-from scene2hap.secret import Secret
-from scene2hap.web import WebReply
 
 if TYPE_CHECKING:
-    from scene2hap.web import Transport
+    from scene2hap.common.web import Transport
 
 _FORM_REJECTED = frozenset({400, 422, 501})
 _OURS = frozenset({"model", "messages", "images", "response_format", "format", "stream", "max_tokens", "num_predict"})

@@ -9,8 +9,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal
 
-from scene2hap import checks
-from scene2hap.calls import clear_construction
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction
+from scene2hap.common.secret import Secret
+from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.backends import chat
 from scene2hap.llm.backends.http_client import Endpoint
@@ -19,11 +21,9 @@ from scene2hap.llm.backends.image_tokens import ImagesAsText
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.schema import strict_schema
 from scene2hap.scene.scene_warning import warn_of
-from scene2hap.secret import Secret
-from scene2hap.web import WebReply
 
 if TYPE_CHECKING:
-    from scene2hap.web import Transport
+    from scene2hap.common.web import Transport
 
 KEY_VARIABLE = "OPENAI_API_KEY"
 BASE_URL = "https://api.openai.com/v1"

@@ -9,9 +9,9 @@ from __future__ import annotations
 import asyncio
 import time
 
+from scene2hap.common.web import WebReply
 from scene2hap.llm.backends.http_errors import failure
 from scene2hap.llm.backends.retry_after import LONGEST_WAIT_S, reset_wait_s
-from scene2hap.web import WebReply
 
 
 class Pace:

@@ -17,14 +17,14 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from scene2hap import checks
-from scene2hap.calls import clear_construction, not_pickled
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction, not_pickled
+from scene2hap.common.text_files import read_small
 from scene2hap.errors import BadAnswer, ConfigError, ReplayMiss, reason_of, unwritable
 from scene2hap.llm.backends.chat import UnusableAnswer
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.request_key import canonical, part_names, plain, request_key
 from scene2hap.llm.wrappers.stack import Spec, Wrapper, identity
-from scene2hap.text_files import read_small
 
 MAX_RECORDING_BYTES = 1 << 28
 """Size of a file of answers (assumed: answers for some 50,000 objects)."""

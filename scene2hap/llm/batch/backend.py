@@ -9,6 +9,7 @@ from collections import Counter
 from dataclasses import replace
 from typing import Any, get_args
 
+from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable, BadAnswer, Scene2HapError
 from scene2hap.llm.backends import chat
 from scene2hap.llm.backends.openai import OpenAIBackend
@@ -17,7 +18,6 @@ from scene2hap.llm.dry_run import estimated_cost_usd
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.request_key import canonical
 from scene2hap.llm.wrappers.prices import PriceList
-from scene2hap.web import WebReply
 
 TIER = "batch"
 """The price tier of batches."""

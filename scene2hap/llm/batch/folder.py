@@ -21,11 +21,11 @@ from typing import Annotated, Any, BinaryIO, ClassVar, Literal
 
 from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
 
-from scene2hap import checks
+from scene2hap.common import checks
+from scene2hap.common.text_files import opened_regular, read_small, write_whole
 from scene2hap.errors import ConfigError, reason_of, unwritable
 from scene2hap.llm.backends.http_client import MAX_REPLY_BYTES
 from scene2hap.llm.batch.service import COMPLETIONS, MOST_BYTES, MOST_REQUESTS
-from scene2hap.text_files import opened_regular, read_small, write_whole
 
 Stage = Literal["written", "uploaded", "begun", "collected"]
 

@@ -7,10 +7,10 @@ from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable, BadAnswer
 from scene2hap.llm.backends import chat
 from scene2hap.llm.backends.http_client import Endpoint
-from scene2hap.web import WebReply
 
 COMPLETIONS = "/v1/chat/completions"
 """The endpoint of every request of a batch."""

@@ -6,8 +6,8 @@ import json
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from scene2hap import checks
-from scene2hap.calls import clear_construction
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction
 from scene2hap.errors import BadAnswer, UnknownMaterial
 from scene2hap.llm.answers import Answer, MaterialAnswer, SceneAnswer, VibrationAnswer
 from scene2hap.llm.lexicon import categories, descriptions, places, similar_materials, table

@@ -21,10 +21,10 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+from scene2hap.common.text_files import read_small_text
 from scene2hap.errors import ConfigError, reason_of
 from scene2hap.llm.protocol import COMPONENTS, Component
 from scene2hap.llm.quoting import IS_DATA, as_data
-from scene2hap.text_files import read_small_text
 
 VERSION = "6"
 

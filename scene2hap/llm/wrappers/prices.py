@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
 
-from scene2hap import checks
-from scene2hap.calls import clear_construction
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ConfigError
 
 _SNAPSHOT = re.compile(r"-\d{4}-\d{2}-\d{2}$")

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import replace
 
-from scene2hap import checks
-from scene2hap.calls import clear_construction
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction
 from scene2hap.errors import BadAnswer, ConfigError
 from scene2hap.llm.backends.chat import UnusableAnswer, about as describe, require_answer, unusable
 from scene2hap.llm.json_text import answer_object

@@ -6,8 +6,8 @@ import asyncio
 import random
 from collections.abc import Awaitable, Callable
 
-from scene2hap import checks
-from scene2hap.calls import clear_construction
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_construction
 from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.wrappers.stack import Spec, Wrapper

@@ -13,7 +13,7 @@ from weakref import ReferenceType, WeakMethod, ref
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.forks import lock_of_process
+from scene2hap.common.forks import lock_of_process
 
 MOST_BYTES = 128 * 2**20
 

@@ -18,7 +18,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import ConfigError
 from scene2hap.materials import Material
 

@@ -27,8 +27,8 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
-from scene2hap.counted import counted
+from scene2hap.common import checks
+from scene2hap.common.counted import counted
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.coupled.elimination import Element, inverse, solve
 

@@ -20,7 +20,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.blas_threads import one_blas_thread
+from scene2hap.common.blas_threads import one_blas_thread
 from scene2hap.contact.junction import Pair
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import AROUND

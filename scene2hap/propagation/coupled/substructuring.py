@@ -20,8 +20,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap.blas_threads import one_blas_thread
-from scene2hap.counted import counted
+from scene2hap.common.blas_threads import one_blas_thread
+from scene2hap.common.counted import counted
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import Sampling
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw

@@ -33,7 +33,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.lattice.factors import diagonal_factors
 

@@ -22,9 +22,9 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
-from scene2hap.calls import clear_attributes
-from scene2hap.counted import counted
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_attributes
+from scene2hap.common.counted import counted
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.cached_while_used import cached_while_used
 from scene2hap.propagation.domain import as_frequencies, warn_if_slow

@@ -17,8 +17,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any, cast
 
-from scene2hap import checks
-from scene2hap.calls import clear_call
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_call
 from scene2hap.errors import ConfigError
 from scene2hap.plugins import PluginGroup
 from scene2hap.scene.arguments import given_scene

@@ -6,9 +6,9 @@ from collections import OrderedDict
 from pathlib import Path
 from threading import Lock
 
+from scene2hap.common.text_files import read_small, write_whole
 from scene2hap.errors import ConfigError, unwritable
 from scene2hap.scene.capture.png import PNG_END
-from scene2hap.text_files import read_small, write_whole
 
 MEMORY_BYTES = 256 * 2**20
 """Bound of this process's LRU cache [bytes]: about 2000 pictures of 512 pixels (assumed)."""

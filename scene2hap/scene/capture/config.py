@@ -7,8 +7,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from scene2hap.common.settings import Settings
 from scene2hap.scene.images import Shot
-from scene2hap.settings import Settings
 
 _Channel = Annotated[int, Field(ge=0, le=255)]
 

@@ -6,7 +6,7 @@ from functools import lru_cache
 
 from PIL import ImageFont
 
-from scene2hap.printable import printable
+from scene2hap.common.printable import printable
 
 Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
 

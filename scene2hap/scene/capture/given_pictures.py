@@ -19,10 +19,11 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
-from scene2hap import checks
-from scene2hap.calls import clear_calls
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_calls
+from scene2hap.common.printable import parse_json
+from scene2hap.common.text_files import read_small, read_small_text
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
-from scene2hap.printable import parse_json
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.capture.cache import MEMORY
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
@@ -31,7 +32,6 @@ from scene2hap.scene.files import inside
 from scene2hap.scene.images import ImageSet, ObjectImages, Shot
 from scene2hap.scene.looks.textures import eight_bits, opened, pillow_reason
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.text_files import read_small, read_small_text
 
 INDEX = "pictures.json"
 """Name of the index file in a folder of pictures. It says which object and view each picture shows."""

@@ -10,8 +10,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
-from scene2hap.calls import misfit
+from scene2hap.common import checks
+from scene2hap.common.calls import misfit
 from scene2hap.errors import ConfigError
 from scene2hap.plugins import Members, lacking
 from scene2hap.scene.capture.stage import Stage

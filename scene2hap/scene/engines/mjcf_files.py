@@ -15,11 +15,11 @@ from math import prod
 from pathlib import Path
 from typing import NamedTuple
 
+from scene2hap.common.text_files import is_there
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 from scene2hap.scene.files import outside, usable_name
 from scene2hap.scene.formats.xml_files import walk_xml
-from scene2hap.text_files import is_there
 
 MAX_XML_BYTES = 1 << 26
 """Largest size of one XML file [bytes] (assumed: a hundred times a large robot)."""

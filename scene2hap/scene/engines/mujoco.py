@@ -35,7 +35,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import SceneError, SceneFormatError, UnknownObject
 from scene2hap.scene import limits
 from scene2hap.scene.copies import name_words

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.engines import engine

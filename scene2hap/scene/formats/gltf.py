@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.formats.gltf_accessors import indices, vectors

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.formats.gltf_accessors import view
 from scene2hap.scene.formats.gltf_container import GltfFile, Json, data_uri, mapping, natural

@@ -37,10 +37,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
-from scene2hap.counted import first_of
+from scene2hap.common import checks
+from scene2hap.common.counted import first_of
+from scene2hap.common.printable import writable
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
-from scene2hap.printable import writable
 from scene2hap.scene import limits
 from scene2hap.scene.formats.habitat_dataset import Dataset, Json, Kind, Template, read_object, rows_of, scale_of
 from scene2hap.scene.formats.habitat_names import Names, ObjectNames

@@ -22,9 +22,9 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-from scene2hap import checks
+from scene2hap.common import checks
+from scene2hap.common.printable import writable
 from scene2hap.errors import SceneError, SceneFormatError
-from scene2hap.printable import writable
 from scene2hap.scene.files import read_bytes
 from scene2hap.scene.formats.habitat_dataset import Dataset, plain_name, read_object
 from scene2hap.scene.scene_warning import warn_of

@@ -23,7 +23,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.scene import limits, solids
 from scene2hap.scene.files import read_bytes

@@ -32,7 +32,7 @@ from typing import Literal
 
 import numpy as np
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import SceneError
 from scene2hap.scene.grouping.empty_names import abbreviates, names_a_thing, says_nothing
 from scene2hap.scene.grouping.loose_parts import loose_parts

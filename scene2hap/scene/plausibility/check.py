@@ -13,8 +13,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
-from scene2hap.counted import first_of
+from scene2hap.common import checks
+from scene2hap.common.counted import first_of
 from scene2hap.scene.copies import name_words
 from scene2hap.scene.geometry import distances, heights_at
 from scene2hap.scene.grouping.empty_names import names_a_place

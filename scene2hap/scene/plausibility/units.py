@@ -13,7 +13,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import SceneError
 from scene2hap.scene.geometry import joined
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject

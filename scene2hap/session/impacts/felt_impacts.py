@@ -20,7 +20,7 @@ import numpy as np
 
 from scene2hap.audio.actuators import inverse_db, is_flat
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB
-from scene2hap.calls import clear_attributes
+from scene2hap.common.calls import clear_attributes
 from scene2hap.errors import Scene2HapError
 from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.live import PointField, TouchedPoint

@@ -12,7 +12,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.devices import SINKS
 from scene2hap.devices.exclusive_use import claim_sink, give_back_sink
 from scene2hap.devices.protocol import ActuatorSink, Fill, SinkFormat, has_clock

@@ -11,10 +11,10 @@ import pytest
 
 from llm_server import GOOD, KEY, request, said
 from scene2hap import OpenAIBackend
+from scene2hap.common.secret import Secret
+from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendError, BackendUnavailable, ConfigError
 from scene2hap.llm.backends.http_client import Endpoint
-from scene2hap.secret import Secret
-from scene2hap.web import WebReply
 
 
 def post(answer: Callable[[httpx.Request], httpx.Response], body: Any = None, key: str | None = KEY) -> WebReply:

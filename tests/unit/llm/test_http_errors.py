@@ -2,8 +2,8 @@
 
 import pytest
 
+from scene2hap.common.web import WebReply
 from scene2hap.llm.backends.http_errors import ServerError, failure, server_error
-from scene2hap.web import WebReply
 
 NOW_S = 1_445_412_480.0
 """Wed, 21 Oct 2015 07:28:00 GMT, the example date of RFC 9110."""

@@ -210,5 +210,5 @@ def test_a_material_without_a_row_is_looked_up_without_a_search_for_similar_name
     def refused(*names: object) -> str:
         raise AssertionError("nobody reads a suggestion")
 
-    monkeypatch.setattr("scene2hap.checks.did_you_mean", refused)
+    monkeypatch.setattr("scene2hap.common.checks.did_you_mean", refused)
     assert row_of("unobtainium glides") is None

@@ -12,9 +12,9 @@ from scene2hap.audio.levels import threshold_db
 from scene2hap.audio.plots import component_levels_db
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.cli.tables import place_of
+from scene2hap.common.plots import plain, set_title
 from scene2hap.errors import MissingExtra
 from scene2hap.haptics import ActuatorProfile
-from scene2hap.plots import plain, set_title
 
 figures = pytest.importorskip("matplotlib.figure", reason="needs the extra plots")
 

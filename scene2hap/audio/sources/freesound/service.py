@@ -9,12 +9,12 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from scene2hap import web
 from scene2hap.audio.sources.disk_cache import plain_line
 from scene2hap.audio.sources.freesound.rate_limit import MINUTE_S, RateLimit
 from scene2hap.audio.sources.freesound.sounds import FIELDS, Sound, read_sounds
+from scene2hap.common import web
+from scene2hap.common.secret import Secret
 from scene2hap.errors import BackendError, BackendUnavailable, BadAnswer
-from scene2hap.secret import Secret
 
 RESULTS_ASKED = 15
 """Results per search: three times the candidates, since some previews are too short or broken; the API's default."""

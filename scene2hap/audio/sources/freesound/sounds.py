@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from scene2hap.audio.clip import Credit
 from scene2hap.audio.sources.disk_cache import plain_line
 from scene2hap.audio.sources.freesound.licences import read_deed
-from scene2hap.web import is_safe
+from scene2hap.common.web import is_safe
 
 FIELDS = "id,name,username,license,url,duration,previews"
 

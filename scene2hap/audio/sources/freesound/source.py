@@ -7,7 +7,6 @@ import time
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.select import MIN_DURATION_S
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES, how_many
@@ -16,16 +15,17 @@ from scene2hap.audio.sources.freesound import licences as cc
 from scene2hap.audio.sources.freesound.queries import queries_for
 from scene2hap.audio.sources.freesound.service import Service
 from scene2hap.audio.sources.freesound.sounds import Sound, read_sounds
-from scene2hap.calls import not_pickled
+from scene2hap.common import checks
+from scene2hap.common.calls import not_pickled
+from scene2hap.common.secret import Secret
+from scene2hap.common.settings import cache_folder
+from scene2hap.common.web import checked_base
 from scene2hap.errors import AudioError, BackendUnavailable, ConfigError
 from scene2hap.haptics import VibrationDescription
 from scene2hap.scene.scene_warning import warn_of
-from scene2hap.secret import Secret
-from scene2hap.settings import cache_folder
-from scene2hap.web import checked_base
 
 if TYPE_CHECKING:
-    from scene2hap.web import Transport
+    from scene2hap.common.web import Transport
 
 _SORTED = ("duration", "created", "downloads", "rating")
 SORTS = ("score", *(f"{what}_{way}" for what in _SORTED for way in ("desc", "asc")))

@@ -8,12 +8,12 @@ from functools import partial
 
 import numpy as np
 
-from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.sources.candidates import how_many
 from scene2hap.audio.sources.synth.patch import Patch
 from scene2hap.audio.sources.synth.signals import REFERENCE_MAINS_HZ, SAMPLE_RATE_HZ, Take, unit_peak
 from scene2hap.audio.sources.synth.vocabulary import patch_for
+from scene2hap.common import checks
 from scene2hap.errors import AudioError, ConfigError
 from scene2hap.haptics import VibrationDescription
 

@@ -18,7 +18,7 @@ from typing import Annotated, ClassVar
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import BackendUnavailable, BadAnswer, reason_of
 
 CONTRACT = "scene2hap/text-to-audio"

@@ -17,9 +17,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from scene2hap.audio.sources.disk_cache import plain_line
+from scene2hap.common.key_search import masked
+from scene2hap.common.secret import MASK
 from scene2hap.errors import BackendUnavailable
-from scene2hap.key_search import masked
-from scene2hap.secret import MASK
 
 MAX_FILES = 1000
 LOG_NAME = "log.txt"

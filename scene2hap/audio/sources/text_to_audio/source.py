@@ -12,19 +12,19 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.select import MIN_DURATION_S
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES, how_many
 from scene2hap.audio.sources.disk_cache import MAX_CLIP_S, Store, digest, plain_line
 from scene2hap.audio.sources.text_to_audio.contract import Reply, Request, read_file, read_reply
 from scene2hap.audio.sources.text_to_audio.process import Allowance, CannotStart, environment, run, scrubbed
-from scene2hap.calls import not_pickled
+from scene2hap.common import checks
+from scene2hap.common.calls import not_pickled
+from scene2hap.common.settings import cache_folder
+from scene2hap.common.web import is_safe
 from scene2hap.errors import AudioError, BackendError, BadAnswer, ConfigError
 from scene2hap.haptics import VibrationDescription
 from scene2hap.scene.scene_warning import warn_of
-from scene2hap.settings import cache_folder
-from scene2hap.web import is_safe
 
 RUNNERS = ("audiogen", "stable_audio")
 

@@ -21,13 +21,13 @@ from typing import Any
 
 from pxr import Sdf, Tf
 
+from scene2hap.common.text_files import is_there
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.files import check_file, inside, usable_name
 from scene2hap.scene.formats.usd.archive import Archive
 from scene2hap.scene.formats.usd.composition import Composition
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.looks.textures import EncodedTexture
-from scene2hap.text_files import is_there
 
 MAX_LAYER_BYTES = 1 << 32
 """Largest size of all layers of one scene [bytes] (assumed)."""

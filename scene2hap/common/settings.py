@@ -11,11 +11,11 @@ from typing import Any, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from scene2hap import checks
-from scene2hap.calls import clear_attributes
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_attributes
+from scene2hap.common.printable import parse_json
+from scene2hap.common.text_files import read_small_text
 from scene2hap.errors import ConfigError, reason_of
-from scene2hap.printable import parse_json
-from scene2hap.text_files import read_small_text
 
 
 @clear_attributes

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from itertools import islice
 
-from scene2hap.printable import printable
+from scene2hap.common.printable import printable
 
 MOST_ROWS = 50
 MOST_LETTERS = 120

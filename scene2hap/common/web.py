@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from urllib.parse import urlsplit
 from urllib.request import getproxies
 
+from scene2hap.common.quiet_logs import scrubbed
 from scene2hap.errors import BackendUnavailable, ConfigError
-from scene2hap.quiet_logs import scrubbed
 
 if TYPE_CHECKING:
     import ssl

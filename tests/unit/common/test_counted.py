@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from scene2hap import bake_many
-from scene2hap.counted import counted, first_of
+from scene2hap.common.counted import counted, first_of
 
 SQUARE = "v 0 0 0\nv 0.1 0 0\nv 0.1 0.3 0\nv 0 0.3 0\no fan\nf 1 2 3 4\n"
 

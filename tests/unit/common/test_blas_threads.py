@@ -11,7 +11,7 @@ from threadpoolctl import ThreadpoolController
 
 from contact_scenes import box
 from scene2hap import HapticSession, SceneSnapshot, SessionConfig, Touch, bake
-from scene2hap.blas_threads import one_blas_thread, set_threads
+from scene2hap.common.blas_threads import one_blas_thread, set_threads
 from scene2hap.propagation.coupled.coupling import couple
 from scene2hap.propagation.points import object_points
 from serial_bench import eventually

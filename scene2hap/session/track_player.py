@@ -11,15 +11,15 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap import checks
-from scene2hap.calls import clear_call
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_call
 from scene2hap.devices.protocol import Block
 from scene2hap.errors import SessionError
 from scene2hap.scene.geometry import vector
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session import HapticFrame, HapticSession, Touch
-from scene2hap.touch_track import LiftStep, MoveStep, TouchStep, TouchTrack
+from scene2hap.session.touch_track import LiftStep, MoveStep, TouchStep, TouchTrack
 
 MAX_UPDATE_RATE_HZ = 1000.0
 """Assumed: trackers and haptic loops run at no more than 1 kHz."""

@@ -4,8 +4,8 @@ import logging
 
 import pytest
 
-from scene2hap.quiet_logs import scrubbed
-from scene2hap.secret import MASK, Secret
+from scene2hap.common.quiet_logs import scrubbed
+from scene2hap.common.secret import MASK, Secret
 
 KEY = "sk-0123456789abcdefghij"
 

@@ -14,7 +14,7 @@ from numbers import Real
 from types import FunctionType
 from typing import Any, NamedTuple, NoReturn, ParamSpec, TypeVar
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import CallError, ReadOnlyAttribute, Scene2HapError, UnknownAttribute, UnknownImport
 
 Arguments = ParamSpec("Arguments")

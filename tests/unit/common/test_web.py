@@ -14,12 +14,12 @@ import httpx
 import pytest
 
 from llm_server import KEY
-from scene2hap import web
+from scene2hap.common import web
+from scene2hap.common.secret import Secret
+from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable
 from scene2hap.llm.backends import http_client
 from scene2hap.llm.backends.http_client import Endpoint
-from scene2hap.secret import Secret
-from scene2hap.web import WebReply
 
 LIMITS = web.Limits(5.0, 1 << 20)
 

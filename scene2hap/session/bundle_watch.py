@@ -8,11 +8,11 @@ from collections import deque
 from types import TracebackType
 from typing import Self
 
-from scene2hap import checks
 from scene2hap.bundle import HapticBundle
-from scene2hap.calls import clear_calls
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_calls
+from scene2hap.common.file_stamp import Stamp, file_stamp
 from scene2hap.errors import BundleError, Scene2HapError
-from scene2hap.file_stamp import Stamp, file_stamp
 from scene2hap.session import HapticSession
 
 POLL_S = 0.05

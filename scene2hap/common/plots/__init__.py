@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
+from scene2hap.common.printable import printable
 from scene2hap.errors import MissingExtra
-from scene2hap.printable import printable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,7 +32,7 @@ def new_figure(width_in: float, height_in: float) -> Figure:
         from matplotlib.figure import Figure  # noqa: F401  # imported here, so that the error names it
     except ImportError as cause:
         raise MissingExtra("figures need matplotlib. Run: pip install 'scene2hap[plots]'") from cause
-    from scene2hap.plots.shown_figure import ShownFigure
+    from scene2hap.common.plots.shown_figure import ShownFigure
 
     return ShownFigure(figsize=(width_in, height_in), dpi=110, layout="constrained")
 

@@ -16,9 +16,9 @@ from scene2hap.audio.sources.library import FolderLibrary
 from scene2hap.bridge.config import BridgeConfig
 from scene2hap.bundle.folder_replacement import require_replaceable
 from scene2hap.clips.ahap import read_ahap
+from scene2hap.common.text_files import draft_of, drafts_of, read_small, read_small_text, write_whole
 from scene2hap.errors import AudioError, ConfigError, Scene2HapError
 from scene2hap.llm.prompts import Prompts
-from scene2hap.text_files import draft_of, drafts_of, read_small, read_small_text, write_whole
 
 
 def test_the_memory_of_a_read_is_that_of_the_file_and_not_of_the_limit(tmp_path: Path) -> None:

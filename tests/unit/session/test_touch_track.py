@@ -9,7 +9,7 @@ import pytest
 from scene2hap import HapticSession, MemorySink, TouchTrack, play_track
 from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.render.safety import FADE_OUT_S
-from scene2hap.track_player import PlayedFrame
+from scene2hap.session.track_player import PlayedFrame
 from scenes import RATE, table_with_two_phones
 
 DOCUMENT = {

@@ -13,12 +13,12 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, model_validator
 
-from scene2hap import checks
-from scene2hap.calls import clear_attributes
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_attributes
+from scene2hap.common.printable import parse_json
+from scene2hap.common.text_files import read_small_text
 from scene2hap.errors import SessionError, reason_of
-from scene2hap.printable import parse_json
 from scene2hap.scene.limits import MAX_COORDINATE_M
-from scene2hap.text_files import read_small_text
 
 FORMAT: Literal["scene2hap/touches"] = "scene2hap/touches"
 VERSION: Literal[1] = 1

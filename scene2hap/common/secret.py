@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import os
 
+from scene2hap.common.key_search import masked
 from scene2hap.errors import CallError, ConfigError
-from scene2hap.key_search import masked
 
 MASK = "******"
 
@@ -57,7 +57,7 @@ class Secret:
         return value
 
     def scrub(self, text: str) -> str:
-        """Remove the key from a text, in any spelling, in case a server echoed it (`scene2hap.key_search`)."""
+        """Remove the key from a text, in any spelling, in case a server echoed it (`scene2hap.common.key_search`)."""
         value = self.reveal()
         if len(value) < _SHORTEST_SCRUBBED:
             return text

@@ -6,7 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from scene2hap import checks
+from scene2hap.common import checks
 from scene2hap.errors import MaterialError, SceneError
 
 

@@ -4,8 +4,8 @@ import inspect
 
 import pytest
 
-from scene2hap import checks
-from scene2hap.calls import clear_call, clear_calls, misfit
+from scene2hap.common import checks
+from scene2hap.common.calls import clear_call, clear_calls, misfit
 from scene2hap.errors import CallError
 
 

@@ -12,7 +12,7 @@ from contextlib import ContextDecorator
 from functools import cache
 from typing import Final, Protocol
 
-from scene2hap.forks import lock_of_process, renew_in_child
+from scene2hap.common.forks import lock_of_process, renew_in_child
 
 
 class _Library(Protocol):
