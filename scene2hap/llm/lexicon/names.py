@@ -6,14 +6,14 @@
    ("train_(railroad_vehicle)"). A "bottle_of_wine" is a wine bottle if the table has one, else a bottle.
 3. The last noun is the object, as in English compounds, and the longest match is used: a sink counter is a counter, a
    coffee machine is no coffee. Words for tools, sides, colours and rooms are never the object.
-4. Asset kits also write the object first. A two-word noun of the table is found in that order too (tableCoffee), but
-   a machine comes before its parts and before what it works with: a printer_label is no label printer. A container
-   precedes its content (crate_tomatoes), a noun its material (tableGlass), a wall the opening in it (wall_doorway), and
-   a piece of furniture the number of its parts (sofa_2_seats). Links of robots are called by their joints, limbs or
-   makes (shoulder_pan_link, wrist_roll, upper_arm_link, iiwa_link_4), which are no objects. Only the base of a robot is
-   the robot: robot0:base_link and panda_link0, but robot0:elbow_link, finger_base_link and finger_link_0 are parts of
-   one, which do not vibrate by themselves.
-5. The room or zone of a machine is no machine (engine_room).
+4. Asset kits also write the object first. A two-word noun of the table is found in that order too (tableCoffee,
+   wheelchair_electric), but a machine comes before its parts and before what it works with: a printer_label is no label
+   printer. A container precedes its content (crate_tomatoes), a noun its material (tableGlass), a wall the opening in
+   it (wall_doorway), and a piece of furniture the number of its parts (sofa_2_seats). Links of robots are called by
+   their joints, limbs or makes (shoulder_pan_link, wrist_roll, upper_arm_link, iiwa_link_4), which are no objects. Only
+   the base of a robot is the robot: robot0:base_link and panda_link0, but robot0:elbow_link, finger_base_link and
+   finger_link_0 are parts of one, which do not vibrate by themselves.
+5. The room, control or picture of a machine is no machine (engine_room, crane_control, fan_art).
 6. The size of a metric thread says that the object belongs to a bolt: "washer_M8" is no washing machine.
 7. A name that no rule can read stays unknown. Only plurals and one typing error in a long word are corrected.
 """
@@ -98,12 +98,14 @@ def read_name(name: str) -> NameReading:
         link = " ".join(tokens)
         return unknown if robot is None else replace(unknown, row=robot, confidence=trust, head=link, unread=())
     head = _head(tokens, nouns, counted)
-    head = _of_a_kind(tokens, head, clause) or _of_a_bolt(name, tokens, head) or head
+    head = (
+        _of_a_kind(tokens, head, clause) or _kind_after(tokens[:clause], head) or _of_a_bolt(name, tokens, head) or head
+    )
     turned = _object_first(tokens[:clause], nouns)
     if turned is not None:
         trust *= 1.0 if turned.row is head.row else _OBJECT_FIRST
         head = turned
-    if head.row.vibrates and set(tokens[head.end : min(head.end + 1, clause)]) & words.SURROUNDINGS:
+    if head.row.vibrates and set(tokens[head.end : min(head.end + 1, clause)]) & words.NO_MACHINES:
         return unknown
     if _is_robot_part(name, tokens, head):
         head = _Noun(_row("robotpart"), head.start, len(tokens), plural=False)
@@ -237,6 +239,14 @@ def _of_a_kind(tokens: Sequence[str], head: _Noun, clause: int) -> _Noun | None:
     spelled = ([*kind[start:], *tokens[head.start : head.end]] for start in range(len(kind)))
     found = (_noun_at(written, 0, len(written)) for written in spelled if len(written) <= _LONGEST_NOUN)
     return next((_Noun(noun.row, head.start, head.end, head.plural) for noun in found if noun is not None), None)
+
+
+def _kind_after(tokens: Sequence[str], head: _Noun) -> _Noun | None:
+    """Return the noun of the table that a noun means with the adjective behind it (wheelchair_electric), or None."""
+    adjective = tokens[head.end : head.end + 1]
+    written = [*adjective, *tokens[head.start : head.end]]
+    noun = _noun_at(written, 0, len(written)) if words.MODIFIERS.issuperset(adjective) and adjective else None
+    return noun and _Noun(noun.row, head.start, head.end + 1, head.plural)
 
 
 def _of_a_bolt(name: str, tokens: Sequence[str], head: _Noun) -> _Noun | None:
