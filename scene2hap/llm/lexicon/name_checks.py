@@ -51,8 +51,11 @@ its metal sheet."""
 _THICK_M = 0.3
 """Drawers, doors and cushions are thinner than this in one direction; assumed."""
 
+_PLACES = _SHELLS | _set("stage,deck,terrace,bridge")
+"""Large objects that name the place of a smaller one."""
 _FITTINGS = _set(
-    "seat,bus seat,toilet,lamp,headlight,taillight,mirror,window,horn,siren,radio,speaker,engine,motor,battery,antenna"
+    "windscreen wiper,seat,bus seat,toilet,lamp,headlight,taillight,mirror,window,horn,siren,radio,speaker,engine,motor,"
+    "battery,antenna"
 )
 """Objects inside or on vehicles that are no parts alone."""
 MINIATURE = 0.5
@@ -115,7 +118,7 @@ def mounted_on(reading: NameReading, size_m: Sequence[float]) -> tuple[NameReadi
     before = _before_head(reading)
     if before.row is None:
         return None
-    if place.noun in _SHELLS:
+    if place.noun in _PLACES:
         is_mounted = before.row.mass_kg is not None and (longest < _SHORT_SHELL_M or _is_block(before.row, size_m))
     else:
         is_fitting = before.row.role == "part" or before.row.noun in _FITTINGS

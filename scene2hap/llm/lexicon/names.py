@@ -87,8 +87,8 @@ def read_name(name: str) -> NameReading:
     unknown = NameReading(name, tuple(tokens), None, _UNKNOWN, unread=unread, material=_material_in(tokens))
     if _PRIMITIVE.fullmatch(name.strip()):
         return unknown
-    counted = word_split.counted_words(name)
-    nouns = _without_robot(tokens, _nouns(tokens, counted))
+    counted, adjectives = word_split.counted_words(name), word_split.counting_adjectives(name)
+    nouns = _without_robot(tokens, _nouns(tokens, counted | adjectives))
     clause, remark = _before_preposition(tokens, nouns), _before_remark(name, tokens, nouns)
     said = tokens[remark:]
     clause = min(clause, remark)
@@ -97,7 +97,7 @@ def read_name(name: str) -> NameReading:
         robot, trust = _robot_of_link(name, tokens), round(trust * _UNREAD_BEFORE, 3)
         link = " ".join(tokens)
         return unknown if robot is None else replace(unknown, row=robot, confidence=trust, head=link, unread=())
-    head = _head(tokens, nouns, counted)
+    head = _head(tokens, nouns, counted, adjectives)
     head = (
         _of_a_kind(tokens, head, clause) or _kind_after(tokens[:clause], head) or _of_a_bolt(name, tokens, head) or head
     )
@@ -256,10 +256,10 @@ def _of_a_bolt(name: str, tokens: Sequence[str], head: _Noun) -> _Noun | None:
     return noun and _Noun(noun.row, head.start, head.end, head.plural)
 
 
-def _head(tokens: Sequence[str], nouns: Sequence[_Noun], counted: frozenset[str]) -> _Noun:
+def _head(tokens: Sequence[str], nouns: Sequence[_Noun], counted: frozenset[str], adjectives: frozenset[str]) -> _Noun:
     """Return the noun that names the object: the last, but for leftovers, materials, content, openings, counted parts.
 
-    The number of a machine is a serial: "truck_2_wheels" are the wheels of one truck.
+    The number of a machine is a serial: "truck_2_wheels" are the wheels of one truck, but a "fan_3blade" is a fan.
     """
     left = list(nouns)
     while len(left) > 1:
@@ -270,7 +270,8 @@ def _head(tokens: Sequence[str], nouns: Sequence[_Noun], counted: frozenset[str]
         # A vessel counts as content of a container only in the plural: "crate_bottles", but "box_plate".
         is_content = held and (last.plural or last.row.role == "content")
         is_opening = previous.row.noun in words.SHELLS and last.row.noun in words.OPENINGS
-        is_counted = tokens[last.start] in counted and _is_countable(last.row) and not previous.row.vibrates
+        counts = tokens[last.start] in adjectives or (tokens[last.start] in counted and not previous.row.vibrates)
+        is_counted = counts and _is_countable(last.row)
         if word not in words.LEFTOVER_NOUNS and not (is_material or is_content or is_opening or is_counted):
             break
         left.pop()

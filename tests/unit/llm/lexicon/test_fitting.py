@@ -113,6 +113,8 @@ def test_a_wall_or_ceiling_too_short_to_be_one_is_the_place_of_the_object(
         ("banana_car", (0.3, 0.2, 0.2), "toy car"),
         ("toy_wheel_truck", (0.3, 0.3, 0.1), "toy truck"),
         ("truck", (0.3, 0.2, 0.2), "toy truck"),
+        ("speaker_stage", (0.5, 0.4, 0.4), "speaker"),
+        ("speaker_stage", (5.0, 4.0, 0.4), "stage"),
     ],
 )
 def test_a_roof_or_vehicle_that_the_object_cannot_be_is_its_place(

@@ -335,6 +335,13 @@ NAMES = {
     "saw_circular": "circular saw",
     "DoorAutomatic": "automatic door",
     "chair_red_small": "chair",
+    # a number that is written onto a part counts the parts; one with a sign before it or after it is a serial
+    "fridge_2door": "refrigerator",
+    "ceiling_fan_3blade": "ceiling fan",
+    "car_4door": "car",
+    "Dresser_3Drawer": "dresser",
+    "Fridge2Door": "door",
+    "fridge_2_door": "door",
     # what a machine's name qualifies: its control, picture, text, spare part or smoke
     "bow_thruster_control": None,
     "crane_controls": None,
