@@ -54,8 +54,8 @@ _THICK_M = 0.3
 _PLACES = _SHELLS | _set("stage,deck,terrace,bridge")
 """Large objects that name the place of a smaller one."""
 _FITTINGS = _set(
-    "windscreen wiper,seat,bus seat,toilet,lamp,headlight,taillight,mirror,window,horn,siren,radio,speaker,engine,motor,"
-    "battery,antenna"
+    "windscreen wiper,seat,bus seat,toilet,lamp,headlight,taillight,mirror,window,horn,siren,radio,speaker,"
+    "engine,motor,battery,antenna"
 )
 """Objects inside or on vehicles that are no parts alone."""
 MINIATURE = 0.5

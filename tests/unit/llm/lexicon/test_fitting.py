@@ -109,7 +109,7 @@ def test_a_wall_or_ceiling_too_short_to_be_one_is_the_place_of_the_object(
         ("elevator_wall", (1.5, 1.5, 0.5), "wall"),
         ("door_truck", (1.0, 1.0, 0.1), "door"),
         ("toilet_train", (0.6, 0.6, 0.5), "toilet"),
-        ("horn_truck", (0.3, 0.2, 0.2), "ship horn"),
+        ("horn_truck", (0.3, 0.2, 0.2), "fog horn"),
         ("banana_car", (0.3, 0.2, 0.2), "toy car"),
         ("toy_wheel_truck", (0.3, 0.3, 0.1), "toy truck"),
         ("truck", (0.3, 0.2, 0.2), "toy truck"),
