@@ -245,7 +245,7 @@ def _kind_after(tokens: Sequence[str], head: _Noun) -> _Noun | None:
     """Return the noun of the table that a noun means with the adjective behind it (wheelchair_electric), or None."""
     adjective = tokens[head.end : head.end + 1]
     written = [*adjective, *tokens[head.start : head.end]]
-    noun = _noun_at(written, 0, len(written)) if words.MODIFIERS.issuperset(adjective) and adjective else None
+    noun = _noun_at(written, 0, len(written)) if adjective and adjective[0] in words.KINDS else None
     return noun and _Noun(noun.row, head.start, head.end + 1, head.plural)
 
 

@@ -42,6 +42,11 @@ MODIFIERS = _set("""
 """)
 """Words for position, size, colour, state or owner. The object is the noun beside them."""
 
+KINDS = _set(
+    "electric electrical electronic automatic digital motorized motorised powered cordless circular folding hanging"
+)
+"""Modifiers that name a kind of object behind it too (wheelchair_electric), unlike a side (loader_front)."""
+
 SOUNDING = {
     "purring": ("purring", 0.15),
     "ticking": ("ticking", 0.1),

@@ -335,6 +335,8 @@ NAMES = {
     "saw_circular": "circular saw",
     "DoorAutomatic": "automatic door",
     "chair_red_small": "chair",
+    "loader_front": "wheel loader",  # its side, not a washing machine that is loaded from the front
+    "coffee_machine_table": "table",
     # a number that is written onto a part counts the parts; one with a sign before it or after it is a serial
     "fridge_2door": "refrigerator",
     "ceiling_fan_3blade": "ceiling fan",
