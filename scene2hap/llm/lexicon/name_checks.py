@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from scene2hap.llm.lexicon import translations, word_split
+from scene2hap.llm.lexicon import translations, word_split, words
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.table import ObjectRow
 
@@ -116,7 +116,7 @@ def mounted_on(reading: NameReading, size_m: Sequence[float]) -> tuple[NameReadi
     if place is None or reading.toy or longest <= 0.0:
         return None
     before = _before_head(reading)
-    if before.row is None:
+    if before.row is None or (before.row.vibrates and reading.head.split()[0] in words.NO_MACHINES):
         return None
     if place.noun in _PLACES:
         is_mounted = before.row.mass_kg is not None and (longest < _SHORT_SHELL_M or _is_block(before.row, size_m))
@@ -168,9 +168,9 @@ def meant_abroad(reading: NameReading, size_m: Sequence[float]) -> tuple[NameRea
 
 def _before_head(reading: NameReading) -> NameReading:
     """Read the words before the recognised part of a name."""
-    words, head = reading.words, tuple(reading.head.split())
-    starts = [i for i in range(len(words)) if words[i : i + len(head)] == head]
-    return read_name(" ".join(words[: starts[-1]]))
+    said, head = reading.words, tuple(reading.head.split())
+    starts = [i for i in range(len(said)) if said[i : i + len(head)] == head]
+    return read_name(" ".join(said[: starts[-1]]))
 
 
 def fit(

@@ -168,6 +168,7 @@ NO_MACHINES = _set("""
     room house bay station depot pit shed area zone spot spawn volume trigger waypoint
     art file icon guide instruction instructions license shadow outline stencil
     control controls console channel sensor fuse chuck kit pad seal strip
+    sheet film guard holster
     fuel lint dust smoke steam sound noise
 """)
 """Words directly after a machine that say that the object is another one: the place around it (engine_room), a text or

@@ -77,6 +77,7 @@ SILENT_WORDS = [
     *("toilet roll", "security camera", "controller", "tap", "faucet", "shower", "toilet"),
     *("digital clock", "led clock", "audio interface", "drum machine", "effects pedal", "gumball machine"),
     *("drill press table", "leg extension machine", "standing desk", "pump room door", "drum stool", "spring rider"),
+    *("cow bell", "bicycle pump", "hand pump", "manual coffee grinder", "soap pump", "folding fan", "dryer sheet"),
 ]
 
 
