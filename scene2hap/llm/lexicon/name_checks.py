@@ -51,7 +51,7 @@ its metal sheet."""
 _THICK_M = 0.3
 """Drawers, doors and cushions are thinner than this in one direction; assumed."""
 
-_PLACES = _SHELLS | _set("stage,deck,terrace,bridge")
+_PLACES = _SHELLS | _set("stage,deck,terrace,bridge,driver cab")
 """Large objects that name the place of a smaller one."""
 _FITTINGS = _set(
     "windscreen wiper,seat,bus seat,toilet,lamp,headlight,taillight,mirror,window,horn,siren,radio,speaker,"

@@ -105,7 +105,8 @@ def read_name(name: str) -> NameReading:
     if turned is not None:
         trust *= 1.0 if turned.row is head.row else _OBJECT_FIRST
         head = turned
-    if head.row.vibrates and set(tokens[head.end : min(head.end + 1, clause)]) & words.NO_MACHINES:
+    after = tokens[head.end : clause]
+    if head.row.vibrates and {*after[:1], *after[-1:]} & words.NO_MACHINES:
         return unknown
     if _is_robot_part(name, tokens, head):
         head = _Noun(_row("robotpart"), head.start, len(tokens), plural=False)

@@ -168,11 +168,12 @@ NO_MACHINES = _set("""
     room house bay station depot pit shed area zone spot spawn volume trigger waypoint
     art file icon guide instruction instructions license shadow outline stencil
     control controls console channel sensor fuse chuck kit pad seal strip
-    sheet film guard holster
+    sheet film guard holster head tip
     fuel lint dust smoke steam sound noise
 """)
-"""Words directly after a machine that say that the object is another one: the place around it (engine_room), a text or
-picture (blender_file, fan_art), a thing of it (crane_control, drill_kit), or what it takes in or gives off."""
+"""Words directly after a machine, or last after it, that say that the object is another one: the place around it
+(engine_room), a text or picture (blender_file, fan_art), a thing of it (crane_control, drill_kit), or what it takes in
+or gives off."""
 
 COUNTED = frozenset({"seat", "cushion", "pillow", "shelf", "stove burner"})
 """Nouns besides parts that count something of the noun before them: a "sofa 2 seats" is a sofa."""

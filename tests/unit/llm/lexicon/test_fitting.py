@@ -108,6 +108,7 @@ def test_a_wall_or_ceiling_too_short_to_be_one_is_the_place_of_the_object(
         ("pump_floor", (2.0, 2.0, 0.05), "floor"),
         ("pump_room_wall", (0.5, 0.5, 0.3), "wall"),
         ("elevator_wall", (1.5, 1.5, 0.5), "wall"),
+        ("air_conditioning_unit_cabin", (0.9, 0.3, 0.25), "air conditioner"),
         ("door_truck", (1.0, 1.0, 0.1), "door"),
         ("toilet_train", (0.6, 0.6, 0.5), "toilet"),
         ("horn_truck", (0.3, 0.2, 0.2), "fog horn"),

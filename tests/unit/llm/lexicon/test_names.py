@@ -355,6 +355,10 @@ NAMES = {
     "washer_outline": None,
     "control_console_engine": "control console",
     "mixer_channel_03": None,
+    "engine_order_console": None,
+    "engine_cylinder_head": None,
+    "ultrasonic_scaler_tip": None,
+    "hvac_grill": "vent grille",
     # liquids and games before a machine's noun are not the object
     "fuel_oil_purifier": "oil separator",
     "lube_oil_pump": "pump",
