@@ -230,8 +230,8 @@ def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iter
             "floating",
             tuple(ids[k] for k in alone),
             f"{_named(ids, alone)} {'float' if len(alone) > 1 else 'floats'}: {_first(ids, alone)} is "
-            f"{nearest_m:.2f} m from the nearest other object, more than {_FLOATS_M} m. Move {_them(alone)} onto something, or touch "
-            f"{_them(alone)} alone.",
+            f"{nearest_m:.2f} m from the nearest other object, more than {_FLOATS_M} m. Move {_them(alone)} onto "
+            f"something, or touch {_them(alone)} alone.",
         )
 
 
