@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from scene2hap.llm.answers import LONGEST_REASON, ObjectAnswer, StateAnswer
 from scene2hap.llm.lexicon.masses import usual_mass_kg
 from scene2hap.llm.lexicon.materials import make, painted_with
-from scene2hap.llm.lexicon.name_checks import fit, ground_plane, meant_abroad, mounted_on, owner_of_part
+from scene2hap.llm.lexicon.name_checks import MINIATURE, fit, ground_plane, meant_abroad, mounted_on, owner_of_part
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.robot_chains import link_of_robot
 from scene2hap.llm.lexicon.table import ObjectRow, StateRow, table
@@ -18,9 +18,7 @@ from scene2hap.scene.surface import plate_sizes
 
 UNKNOWN = "unknown"
 
-# An object below half of the smallest real size is a miniature. Beyond three times the largest size, the scene's unit
-# is doubtful. Both factors are assumed, wide enough for asset kits at half or double scale.
-_MINIATURE = 0.5
+# Beyond three times the largest size, the scene's unit is doubtful. Assumed, wide enough for kits at double scale.
 _GIANT = 3.0
 _MINIATURE_TRUST = 0.8
 _GIANT_TRUST = 0.5
@@ -161,7 +159,7 @@ def _miniature(reading: NameReading, row: ObjectRow, size_m: tuple[float, float,
     if reading.toy:
         return "The name says that it is not a real one."
     longest = max(size_m)
-    if row.min_size_m is not None and 0.0 < longest < _MINIATURE * row.min_size_m:
+    if row.min_size_m is not None and 0.0 < longest < MINIATURE * row.min_size_m:
         return f"It is {longest:.2g} m long, far below a real one of at least {row.min_size_m:g} m."
     return ""
 

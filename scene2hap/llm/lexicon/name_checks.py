@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from scene2hap.llm.lexicon import translations, word_split
+from scene2hap.llm.lexicon import translations, word_split, words
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.table import ObjectRow
 
@@ -50,6 +50,19 @@ _FURNISHINGS = _set("cushion")
 its metal sheet."""
 _THICK_M = 0.3
 """Drawers, doors and cushions are thinner than this in one direction; assumed."""
+
+_PLACES = _SHELLS | _set("stage,deck,terrace,bridge,driver cab")
+"""Large objects that name the place of a smaller one."""
+_FITTINGS = _set(
+    "windscreen wiper,seat,bus seat,toilet,lamp,headlight,taillight,mirror,window,horn,siren,radio,speaker,"
+    "engine,motor,battery,antenna"
+)
+"""Objects inside or on vehicles that are no parts alone."""
+MINIATURE = 0.5
+"""An object shorter than this share of the smallest real one is a miniature; assumed, so that asset kits at half scale
+are real."""
+_SLAB_SHARE = 0.15
+"""Walls, floors, ceilings and roofs are thinner than this share of their length; assumed."""
 
 _FLAT_SHARE, _SMALLEST_GROUND_M = 0.01, 3.0
 """The ground is flat and low within this share of its length, and wider than this [m]; assumed."""
@@ -93,19 +106,34 @@ def owner_of_part(reading: NameReading, whole_m: Sequence[float]) -> tuple[NameR
 
 
 def mounted_on(reading: NameReading, size_m: Sequence[float]) -> tuple[NameReading, str] | None:
-    """Return the object named before a wall, floor or ceiling that is too short to be one; None if there is none.
+    """Return the object named before a wall, roof or vehicle that the object cannot be; None if there is none.
 
-    "monitor_wall" of 0.4 m is a monitor that hangs on a wall. Only objects of known mass count, since a part of a
-    "house_wall" is no house.
+    "monitor_wall" of 0.4 m is a monitor that hangs on a wall, "hvac_roof" of 2 m by 1.5 m by 0.5 m is too thick for a
+    roof, and "seat_truck" of 0.5 m is no toy. Before a wall, only objects of known mass count, since a part of a
+    "house_wall" is no house; before a vehicle only its fittings, since a "banana_car" is a toy.
     """
-    if reading.row is None or reading.row.noun not in _SHELLS or not 0.0 < max(size_m) < _SHORT_SHELL_M:
+    place, longest = reading.row, max(size_m)
+    if place is None or reading.toy or longest <= 0.0:
         return None
     before = _before_head(reading)
-    if before.row is None or before.row.mass_kg is None:
+    if before.row is None or (before.row.vibrates and reading.head.split()[0] in words.NO_MACHINES):
         return None
-    why = f"It is {max(size_m):.2g} m long; a {reading.row.noun} of a room is longer, so that word is its place."
+    if place.noun in _PLACES:
+        is_mounted = before.row.mass_kg is not None and (longest < _SHORT_SHELL_M or _is_block(before.row, size_m))
+    else:
+        is_fitting = before.row.role == "part" or before.row.noun in _FITTINGS
+        is_mounted = is_fitting and place.role == "vehicle" and longest < MINIATURE * (place.min_size_m or 0.0)
+    if not is_mounted:
+        return None
+    why = f"It is {longest:.2g} m long and {min(size_m):.2g} m thick, unlike a {place.noun}, so that word is its place."
     trust = round(_OWNER * min(before.confidence, reading.confidence), 3)
     return replace(before, name=reading.name, words=reading.words, confidence=trust), why
+
+
+def _is_block(row: ObjectRow, size_m: Sequence[float]) -> bool:
+    """Return True if an object has the size of a machine that drives nobody, and is too thick for a wall."""
+    is_machine = row.vibrates and row.role != "vehicle" and row.max_size_m is not None
+    return is_machine and max(size_m) <= (row.max_size_m or 0.0) and min(size_m) > _SLAB_SHARE * max(size_m)
 
 
 def ground_plane(reading: NameReading, whole_m: Sequence[float], height_m: float | None) -> NameReading | None:
@@ -140,9 +168,9 @@ def meant_abroad(reading: NameReading, size_m: Sequence[float]) -> tuple[NameRea
 
 def _before_head(reading: NameReading) -> NameReading:
     """Read the words before the recognised part of a name."""
-    words, head = reading.words, tuple(reading.head.split())
-    starts = [i for i in range(len(words)) if words[i : i + len(head)] == head]
-    return read_name(" ".join(words[: starts[-1]]))
+    said, head = reading.words, tuple(reading.head.split())
+    starts = [i for i in range(len(said)) if said[i : i + len(head)] == head]
+    return read_name(" ".join(said[: starts[-1]]))
 
 
 def fit(

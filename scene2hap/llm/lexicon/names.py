@@ -6,14 +6,14 @@
    ("train_(railroad_vehicle)"). A "bottle_of_wine" is a wine bottle if the table has one, else a bottle.
 3. The last noun is the object, as in English compounds, and the longest match is used: a sink counter is a counter, a
    coffee machine is no coffee. Words for tools, sides, colours and rooms are never the object.
-4. Asset kits also write the object first. A two-word noun of the table is found in that order too (tableCoffee), but
-   a machine comes before its parts and before what it works with: a printer_label is no label printer. A container
-   precedes its content (crate_tomatoes), a noun its material (tableGlass), a wall the opening in it (wall_doorway), and
-   a piece of furniture the number of its parts (sofa_2_seats). Links of robots are called by their joints, limbs or
-   makes (shoulder_pan_link, wrist_roll, upper_arm_link, iiwa_link_4), which are no objects. Only the base of a robot is
-   the robot: robot0:base_link and panda_link0, but robot0:elbow_link, finger_base_link and finger_link_0 are parts of
-   one, which do not vibrate by themselves.
-5. The room or zone of a machine is no machine (engine_room).
+4. Asset kits also write the object first. A two-word noun of the table is found in that order too (tableCoffee,
+   wheelchair_electric), but a machine comes before its parts and before what it works with: a printer_label is no label
+   printer. A container precedes its content (crate_tomatoes), a noun its material (tableGlass), a wall the opening in
+   it (wall_doorway), and a piece of furniture the number of its parts (sofa_2_seats). Links of robots are called by
+   their joints, limbs or makes (shoulder_pan_link, wrist_roll, upper_arm_link, iiwa_link_4), which are no objects. Only
+   the base of a robot is the robot: robot0:base_link and panda_link0, but robot0:elbow_link, finger_base_link and
+   finger_link_0 are parts of one, which do not vibrate by themselves.
+5. The room, control or picture of a machine is no machine (engine_room, crane_control, fan_art).
 6. The size of a metric thread says that the object belongs to a bolt: "washer_M8" is no washing machine.
 7. A name that no rule can read stays unknown. Only plurals and one typing error in a long word are corrected.
 """
@@ -87,8 +87,8 @@ def read_name(name: str) -> NameReading:
     unknown = NameReading(name, tuple(tokens), None, _UNKNOWN, unread=unread, material=_material_in(tokens))
     if _PRIMITIVE.fullmatch(name.strip()):
         return unknown
-    counted = word_split.counted_words(name)
-    nouns = _without_robot(tokens, _nouns(tokens, counted))
+    counted, adjectives = word_split.counted_words(name), word_split.counting_adjectives(name)
+    nouns = _without_robot(tokens, _nouns(tokens, counted | adjectives))
     clause, remark = _before_preposition(tokens, nouns), _before_remark(name, tokens, nouns)
     said = tokens[remark:]
     clause = min(clause, remark)
@@ -97,13 +97,16 @@ def read_name(name: str) -> NameReading:
         robot, trust = _robot_of_link(name, tokens), round(trust * _UNREAD_BEFORE, 3)
         link = " ".join(tokens)
         return unknown if robot is None else replace(unknown, row=robot, confidence=trust, head=link, unread=())
-    head = _head(tokens, nouns, counted)
-    head = _of_a_kind(tokens, head, clause) or _of_a_bolt(name, tokens, head) or head
+    head = _head(tokens, nouns, counted, adjectives)
+    head = (
+        _of_a_kind(tokens, head, clause) or _kind_after(tokens[:clause], head) or _of_a_bolt(name, tokens, head) or head
+    )
     turned = _object_first(tokens[:clause], nouns)
     if turned is not None:
         trust *= 1.0 if turned.row is head.row else _OBJECT_FIRST
         head = turned
-    if head.row.vibrates and set(tokens[head.end : min(head.end + 1, clause)]) & words.SURROUNDINGS:
+    after = tokens[head.end : clause]
+    if head.row.vibrates and {*after[:1], *after[-1:]} & words.NO_MACHINES:
         return unknown
     if _is_robot_part(name, tokens, head):
         head = _Noun(_row("robotpart"), head.start, len(tokens), plural=False)
@@ -239,6 +242,14 @@ def _of_a_kind(tokens: Sequence[str], head: _Noun, clause: int) -> _Noun | None:
     return next((_Noun(noun.row, head.start, head.end, head.plural) for noun in found if noun is not None), None)
 
 
+def _kind_after(tokens: Sequence[str], head: _Noun) -> _Noun | None:
+    """Return the noun of the table that a noun means with the adjective behind it (wheelchair_electric), or None."""
+    adjective = tokens[head.end : head.end + 1]
+    written = [*adjective, *tokens[head.start : head.end]]
+    noun = _noun_at(written, 0, len(written)) if adjective and adjective[0] in words.KINDS else None
+    return noun and _Noun(noun.row, head.start, head.end + 1, head.plural)
+
+
 def _of_a_bolt(name: str, tokens: Sequence[str], head: _Noun) -> _Noun | None:
     """Return the ring or nut of a bolt that a noun means beside the size of a thread, or None."""
     written = ["bolt", *tokens[head.start : head.end]]
@@ -246,10 +257,10 @@ def _of_a_bolt(name: str, tokens: Sequence[str], head: _Noun) -> _Noun | None:
     return noun and _Noun(noun.row, head.start, head.end, head.plural)
 
 
-def _head(tokens: Sequence[str], nouns: Sequence[_Noun], counted: frozenset[str]) -> _Noun:
+def _head(tokens: Sequence[str], nouns: Sequence[_Noun], counted: frozenset[str], adjectives: frozenset[str]) -> _Noun:
     """Return the noun that names the object: the last, but for leftovers, materials, content, openings, counted parts.
 
-    The number of a machine is a serial: "truck_2_wheels" are the wheels of one truck.
+    The number of a machine is a serial: "truck_2_wheels" are the wheels of one truck, but a "fan_3blade" is a fan.
     """
     left = list(nouns)
     while len(left) > 1:
@@ -260,7 +271,8 @@ def _head(tokens: Sequence[str], nouns: Sequence[_Noun], counted: frozenset[str]
         # A vessel counts as content of a container only in the plural: "crate_bottles", but "box_plate".
         is_content = held and (last.plural or last.row.role == "content")
         is_opening = previous.row.noun in words.SHELLS and last.row.noun in words.OPENINGS
-        is_counted = tokens[last.start] in counted and _is_countable(last.row) and not previous.row.vibrates
+        counts = tokens[last.start] in adjectives or (tokens[last.start] in counted and not previous.row.vibrates)
+        is_counted = counts and _is_countable(last.row)
         if word not in words.LEFTOVER_NOUNS and not (is_material or is_content or is_opening or is_counted):
             break
         left.pop()

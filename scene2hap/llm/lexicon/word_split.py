@@ -16,6 +16,7 @@ _RUN_TOGETHER = 0.9
 _SLIP = 0.6
 
 _COUNTED = re.compile(r"(?<!\d)(?:[2-9]|1\d)[\W_]*([^\W\d_]+)")
+_ADJECTIVE = re.compile(r"(?<![^\W_])(?:[2-9]|1\d)([^\W\d_]+)")
 
 _HASH = re.compile(
     r"(?<![^\W_])(?:[0-9a-f]{8}(?:[-_][0-9a-f]{4}){3}[-_][0-9a-f]{12}|(?=\d*[a-f]+\d+[a-f])[0-9a-f]{8,})(?![^\W_])",
@@ -48,9 +49,18 @@ def counted_words(name: str) -> frozenset[str]:
 
     Only plurals count. Serials have zeros.
     """
-    after = (next(_at_capitals(run)).casefold() for run in _COUNTED.findall(_plain(name)))
-    pieces = (_known_pieces(word)[0][0] for word in after)
-    return frozenset(word for word in pieces if len(tuple(words.forms(word))) > 1)
+    return frozenset(word for word in _first_words(_COUNTED, name) if len(tuple(words.forms(word))) > 1)
+
+
+def counting_adjectives(name: str) -> frozenset[str]:
+    """Return the singulars that a number is written onto: "door" in "fridge_2door", but not in "Fridge2Door"."""
+    return frozenset(word for word in _first_words(_ADJECTIVE, name) if len(tuple(words.forms(word))) == 1)
+
+
+def _first_words(pattern: re.Pattern[str], name: str) -> Iterator[str]:
+    """Yield the first word, as read, of each run of letters that a pattern finds."""
+    after = (next(_at_capitals(run)).casefold() for run in pattern.findall(_plain(name)))
+    return (_known_pieces(word)[0][0] for word in after)
 
 
 def split_words(name: str) -> list[str]:

@@ -28,7 +28,7 @@ MODIFIERS = _set("""
     narrow big small large little medium huge tiny mini xl xs giant high low mid thick thin round rounded square
     rectangle rectangular oval circular flat curved cross folding foldable foldout stacked vertical horizontal diagonal
     standalone freestanding portable mobile electric electrical electronic automatic manual digital analog cordless
-    industrial commercial professional
+    industrial commercial professional motorized motorised powered
     dark light bright colored coloured
     old new vintage antique modern classic retro fancy simple basic plain cheap luxury design designer deluxe rustic
     scandinavian victorian decorative decorated ornate style stylized stylised realistic clean dirty messy broken
@@ -41,6 +41,11 @@ MODIFIERS = _set("""
     order multi patch pile stack heap bunch row pair seater
 """)
 """Words for position, size, colour, state or owner. The object is the noun beside them."""
+
+KINDS = _set(
+    "electric electrical electronic automatic digital motorized motorised powered cordless circular folding hanging"
+)
+"""Modifiers that name a kind of object behind it too (wheelchair_electric), unlike a side (loader_front)."""
 
 SOUNDING = {
     "purring": ("purring", 0.15),
@@ -159,8 +164,16 @@ LEFTOVER_NOUNS = _set("mat trash orange cream mobile house backsplash splashback
 "sofa_orange". A "counter_backsplash" is a counter with a backsplash, a "mirror_wc" hangs in one, and a "bin_goal" is
 where a task of a robot ends."""
 
-SURROUNDINGS = _set("room house bay station depot pit shed area zone spot spawn volume trigger waypoint")
-"""Words directly after a machine that say that the object is only the place around it (engine_room, printer_area)."""
+NO_MACHINES = _set("""
+    room house bay station depot pit shed area zone spot spawn volume trigger waypoint
+    art file icon guide instruction instructions license shadow outline stencil
+    control controls console channel sensor fuse chuck kit pad seal strip
+    sheet film guard holster head tip
+    fuel lint dust smoke steam sound noise
+""")
+"""Words directly after a machine, or last after it, that say that the object is another one: the place around it
+(engine_room), a text or picture (blender_file, fan_art), a thing of it (crane_control, drill_kit), or what it takes in
+or gives off."""
 
 COUNTED = frozenset({"seat", "cushion", "pillow", "shelf", "stove burner"})
 """Nouns besides parts that count something of the noun before them: a "sofa 2 seats" is a sofa."""

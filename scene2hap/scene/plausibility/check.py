@@ -229,9 +229,9 @@ def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iter
         yield Finding(
             "floating",
             tuple(ids[k] for k in alone),
-            f"{_named(ids, alone)} {'float' if len(alone) > 1 else 'floats'}: {ids[row]!r} is {nearest_m:.2f} m "
-            f"from the nearest other object, more than {_FLOATS_M} m. Move {_them(alone)} onto something, or touch "
-            f"{_them(alone)} alone.",
+            f"{_named(ids, alone)} {'float' if len(alone) > 1 else 'floats'}: {_first(ids, alone)} is "
+            f"{nearest_m:.2f} m from the nearest other object, more than {_FLOATS_M} m. Move {_them(alone)} onto "
+            f"something, or touch {_them(alone)} alone.",
         )
 
 
@@ -399,13 +399,18 @@ def _sunk(scene: SceneData, boxes: NDArray[np.float64], ids: tuple[str, ...], up
         yield Finding(
             "sunk",
             tuple(ids[k] for k in sunk),
-            f"{_named(ids, sunk)} {'are' if len(sunk) > 1 else 'is'} below the floor: {ids[row]!r} ends "
+            f"{_named(ids, sunk)} {'are' if len(sunk) > 1 else 'is'} below the floor: {_first(ids, sunk)} ends "
             f"{depth[row]:.2f} m under the top of {ids[floor]!r}, more than {_SUNK_M} m. Raise {_them(sunk)}.",
         )
 
 
 def _them(rows: NDArray[np.intp]) -> str:
     return "them" if len(rows) > 1 else "it"
+
+
+def _first(ids: tuple[str, ...], rows: NDArray[np.intp]) -> str:
+    """Return the first of several objects that a message has just named, or "it" for a single one."""
+    return repr(ids[rows[0]]) if len(rows) > 1 else "it"
 
 
 def _named(ids: tuple[str, ...], rows: NDArray[np.intp]) -> str:

@@ -385,4 +385,4 @@ def test_a_floating_object_is_found_far_from_all_others_and_its_distance_is_to_t
     lamp = SceneObject("lamp", pose=Pose((900.0, 3.0, 0.0)), geometry=Box((0.2, 0.2, 0.2)))
     (found,) = SceneSnapshot.build([*crates, lamp]).check()
     assert found.object_ids == ("lamp",)
-    assert "101.73 m from the nearest" in str(found)
+    assert "floats: it is 101.73 m from the nearest" in str(found)

@@ -100,6 +100,32 @@ def test_a_wall_or_ceiling_too_short_to_be_one_is_the_place_of_the_object(
 
 
 @pytest.mark.parametrize(
+    ("name", "whole_m", "category"),
+    [
+        ("hvac_unit_roof", (2.0, 1.5, 0.5), "air conditioner"),
+        ("air_conditioner_wall", (1.1, 0.3, 0.25), "air conditioner"),
+        ("air_conditioner_wall", (2.5, 2.4, 0.2), "wall"),
+        ("pump_floor", (2.0, 2.0, 0.05), "floor"),
+        ("pump_room_wall", (0.5, 0.5, 0.3), "wall"),
+        ("elevator_wall", (1.5, 1.5, 0.5), "wall"),
+        ("air_conditioning_unit_cabin", (0.9, 0.3, 0.25), "air conditioner"),
+        ("door_truck", (1.0, 1.0, 0.1), "door"),
+        ("toilet_train", (0.6, 0.6, 0.5), "toilet"),
+        ("horn_truck", (0.3, 0.2, 0.2), "fog horn"),
+        ("banana_car", (0.3, 0.2, 0.2), "toy car"),
+        ("toy_wheel_truck", (0.3, 0.3, 0.1), "toy truck"),
+        ("truck", (0.3, 0.2, 0.2), "toy truck"),
+        ("speaker_stage", (0.5, 0.4, 0.4), "speaker"),
+        ("speaker_stage", (5.0, 4.0, 0.4), "stage"),
+    ],
+)
+def test_a_roof_or_vehicle_that_the_object_cannot_be_is_its_place(
+    name: str, whole_m: tuple[float, float, float], category: str
+) -> None:
+    assert judge(Measured(name, whole_m, whole_m=whole_m)).object_category == category
+
+
+@pytest.mark.parametrize(
     ("name", "material"),
     [
         ("tractor_tire", "rubber"),

@@ -329,6 +329,50 @@ NAMES = {
     "": None,
     "___": None,
     "42": None,
+    # the adjective of a kind may stand behind it, as after serials and prefixes
+    "toothbrush_electric": "electric toothbrush",
+    "SM_Wheelchair_Powered_01": "electric wheelchair",
+    "saw_circular": "circular saw",
+    "DoorAutomatic": "automatic door",
+    "chair_red_small": "chair",
+    "loader_front": "wheel loader",  # its side, not a washing machine that is loaded from the front
+    "coffee_machine_table": "table",
+    # a number that is written onto a part counts the parts; one with a sign before it or after it is a serial
+    "fridge_2door": "refrigerator",
+    "ceiling_fan_3blade": "ceiling fan",
+    "car_4door": "car",
+    "Dresser_3Drawer": "dresser",
+    "Fridge2Door": "door",
+    "fridge_2_door": "door",
+    # what a machine's name qualifies: its control, picture, text, spare part or smoke
+    "bow_thruster_control": None,
+    "crane_controls": None,
+    "fan_art": "poster",
+    "blender_file": None,
+    "printer_instructions": None,
+    "drill_kit": None,
+    "engine_smoke": None,
+    "washer_outline": None,
+    "control_console_engine": "control console",
+    "mixer_channel_03": None,
+    "engine_order_console": None,
+    "engine_cylinder_head": None,
+    "ultrasonic_scaler_tip": None,
+    "hvac_grill": "vent grille",
+    # liquids and games before a machine's noun are not the object
+    "fuel_oil_purifier": "oil separator",
+    "lube_oil_pump": "pump",
+    "air_hockey_table": "air hockey",
+    "industrial_washer_extractor": "washing machine",
+    # a machine for the arms is moved by the arms
+    "leg_extension_machine": "exercise machine",
+    "cable_crossover_machine": "exercise machine",
+    # German machines
+    "Hochdruckreiniger_01": "pressure washer",
+    "Beatmungsgeraet": "ventilator machine",
+    "Kaffeevollautomat": "coffee machine",
+    "Winkelschleifer": "angle grinder",
+    "Maehdrescher": "harvester",
 }
 
 

@@ -50,6 +50,13 @@ VIBRATING_WORDS = [
         "exercise bike",
     ),
     *("massage chair", "game controller", "water heater"),
+    # places with machines of their own: ships, stages, surgeries, farms, arcades, laundrettes
+    *("bow thruster", "oil separator", "anchor windlass", "fog horn"),
+    *("studio monitor", "leslie cabinet", "fog machine", "moving head light"),
+    *("dental unit", "ultrasonic cleaner", "amalgamator", "oxygen concentrator"),
+    *("milking machine", "milk tank", "grain mill", "log splitter"),
+    *("air hockey table", "skee ball", "coin changer", "kiddie ride"),
+    *("spin extractor", "rotary iron", "steam press", "plotter"),
 ]
 SILENT = """
     plate chair wall towel table bowl mirror lamp chandelier portrait board carpet rug mat vase sofa curtain wardrobe
@@ -68,6 +75,9 @@ SILENT_WORDS = [
         "dish rack",
     ),
     *("toilet roll", "security camera", "controller", "tap", "faucet", "shower", "toilet"),
+    *("digital clock", "led clock", "audio interface", "drum machine", "effects pedal", "gumball machine"),
+    *("drill press table", "leg extension machine", "standing desk", "pump room door", "drum stool", "spring rider"),
+    *("cow bell", "bicycle pump", "hand pump", "manual coffee grinder", "soap pump", "folding fan", "dryer sheet"),
 ]
 
 
