@@ -294,7 +294,8 @@ def _object_first(tokens: Sequence[str], nouns: Sequence[_Noun]) -> _Noun | None
     if len(telling) < 2:
         return None
     first, second = telling[-2:]
-    if _is_of_machine(nouns, first, second):
+    is_one = any(noun.start <= first and second < noun.end for noun in nouns)
+    if is_one or _is_of_machine(nouns, first, second):
         return None
     entry = word_split.nouns().get(tokens[second] + tokens[first])
     if entry is None or entry[1] != (tokens[second], tokens[first]) or _noun_at((tokens[first], tokens[second]), 0, 2):

@@ -192,6 +192,9 @@ NAMES = {
     "dishrack_plates": "dish rack",
     "pot_A_stew": "pot",
     "tableCoffeeGlassSquare": "coffee table",
+    "washing_machine_drum": "washing drum",  # and no drum machine
+    "quad_bike_chassis": "chassis",
+    "BookEnd_02": "bookend",
     "chairDesk": "desk chair",
     "stoolBar": "bar stool",
     "tableGlass": "table",
