@@ -204,8 +204,8 @@ class Landings:
         """The landing on the touched object that was approached the fastest, of equal ones the first by id; empty if
         there is none."""
         run = track.run()
-        (first, begin_s), (before, before_s), (last, end_s) = run[0], run[-2], run[-1]
-        best, most_m, turned_m, turns_m, now = None, LEAST_TRAVEL_M, 0.0, 0.0, self._n_updates
+        (first, _), (before, before_s), (last, end_s) = run[0], run[-2], run[-1]
+        best, most_m, speed, now = None, LEAST_TRAVEL_M, 0.0, self._n_updates
         # The step after a long frame is short, without being slow. The ratio is unknown if the clock stands still.
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
@@ -229,18 +229,29 @@ class Landings:
                     continue
                 if self._stops_suddenly(object_id, other, point, normal, [*run, (now, time_s)]):
                     best, most_m = (other, point), closing
-                    if other in edges:  # an arc of 50 ms is as long as its chord
-                        break
-                    turned_m = dot(self._turning(object_id, point, first, last), normal)
-                    turns_m = dot(self._spin(object_id, point, before, last), normal)
+                    # The two may have met early in the last step.
+                    runs = (run, track.run(1))
+                    speed = max(self._speed(object_id, other, point, normal, one) for one in runs)
         if best is None:
             return []
+        return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
+
+    def _speed(
+        self, object_id: str, other: str, point_m: Vector, normal: Vector, run: Sequence[tuple[int, float]]
+    ) -> float:
+        """Mean speed of an object towards another over a run [m/s], of its middle and of its turns in each step.
+
+        The chord of a fast turn is no measure of its speed: the bottom of a spinning ball was lately its top.
+        """
+        (first, begin_s), (last, end_s) = run[0], run[-1]
         n_updates, elapsed_s = last - first, end_s - begin_s
         stands_still = elapsed_s <= 0 or (n_updates > 1 and run[1][1] == end_s)
         period_s = self._period_s if stands_still else elapsed_s / n_updates
-        # The chord of a fast turn is no measure of its speed: the bottom of a spinning ball was lately its top.
-        speed = ((most_m - turned_m) / n_updates + turns_m / (last - before)) / period_s
-        return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
+        came_m = self._middle_nearing_m(object_id, other, point_m, normal, first, last)
+        turned_m = sum(
+            dot(self._spin(object_id, point_m, since, until), normal) for (since, _), (until, _) in pairwise(run)
+        )
+        return (came_m + turned_m) / n_updates / period_s
 
     def _edge(self, object_id: str, track: MotionTrack, other: str) -> Vector | None:
         """The point [m], world, at which a door or lid met what a hinge holds it on; None if it did not."""
@@ -270,20 +281,17 @@ class Landings:
         track = self._tracks[object_id]
         run = track.run()
         since, until = run[0][0], run[-1][0]
-        begin, end = track.pose_at(since), track.pose_at(until)
-        if begin.rotation_xyzw == end.rotation_xyzw:
+        if track.pose_at(since).rotation_xyzw == track.pose_at(until).rotation_xyzw:
             return False
-        (x, y, z), (u, v, w) = in_world(track.own_m, end), in_world(track.own_m, begin)
-        a, b, c = self._travel(other, point_m, since, until)
-        return dot((x - u - a, y - v - b, z - w - c), normal) < ROLLS * closing_m
+        return self._middle_nearing_m(object_id, other, point_m, normal, since, until) < ROLLS * closing_m
 
-    def _turning(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
-        """Travel between two updates of the part of an object that is now at a point, relative to its middle [m]."""
-        x, y, z = self._travel(object_id, point_m, since, until)
+    def _middle_nearing_m(
+        self, object_id: str, other: str, point_m: Vector, normal: Vector, since: int, until: int
+    ) -> float:
+        """Travel of an object's middle between two updates along a normal, relative to another object [m]."""
         track = self._tracks[object_id]
-        a, b, c = in_world(track.own_m, track.pose_at(since))
-        u, v, w = in_world(track.own_m, track.pose_at(until))
-        return x + a - u, y + b - v, z + c - w
+        begin, end = in_world(track.own_m, track.pose_at(since)), in_world(track.own_m, track.pose_at(until))
+        return dot(_difference(_difference(end, begin), self._travel(other, point_m, since, until)), normal)
 
     def _spin(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
         """Product of the sine of the turn between two updates and the arm from the object's middle to a point [m]."""
@@ -292,7 +300,8 @@ class Landings:
         if begin.rotation_xyzw == end.rotation_xyzw:
             return STILL
         turn = end.rotation @ begin.rotation.T
-        x, y, z = ((turn - turn.T) / 2 @ (np.array(point_m) - in_world(track.own_m, end))).tolist()
+        arm_m = np.subtract(point_m, in_world(track.own_m, self._graph.pose(object_id)))
+        x, y, z = ((turn - turn.T) / 2 @ arm_m).tolist()
         return x, y, z
 
     def _nearing(self, object_id: str, other: str, point_m: Vector, since: int, until: int) -> Vector:
