@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from itertools import pairwise
 from types import MappingProxyType
 from typing import NamedTuple
@@ -27,6 +28,7 @@ from scene2hap.contact.junction import Junction
 from scene2hap.scene.geometry import Vector, dot
 from scene2hap.scene.pose import Pose
 from scene2hap.session.impacts.motion_track import LEAST_TRAVEL_M, LEFT, MOST_STEPS, STILL, MotionTrack, in_world
+from scene2hap.session.impacts.slams import Way
 
 LEAST_SPEED_M_S = 0.1
 """A cup put down more slowly is as good as not felt, and trackers shake as fast."""
@@ -75,7 +77,7 @@ class Landings:
         self,
         graph: ContactGraph,
         middle_m: Callable[[str], Vector],
-        edge_that_meets: Callable[[str, str, Sequence[tuple[Pose, Pose]]], Vector | None],
+        edge_that_meets: Callable[[str, Callable[[str], Way]], tuple[str, Vector] | None],
         period_s: float,
     ) -> None:
         self._graph, self._middle_m, self._edge_that_meets = graph, middle_m, edge_that_meets
@@ -210,16 +212,16 @@ class Landings:
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
         beside, met = self._graph.beside.get(object_id, _NOTHING), self._met(object_id)
-        edges = {x: edge for x in met if (edge := self._edge(object_id, track, x)) is not None}
+        holder, edge = self._edge_that_meets(object_id, partial(self._way, track)) or (None, STILL)
         # Sorted, since the graph's order depends on the hashes of ids, which differ in each run of Python. Present
         # contacts come first, and hinges last among these: a contact elsewhere shows where the two objects meet.
-        others = sorted(met, key=lambda x: (x not in beside, x in edges, x))
+        others = sorted(met, key=lambda x: (x not in beside, x == holder, x))
         for other, junction in [(x, side) for x in others for side in _sides(met[x])]:
-            if best is not None and (other not in beside or other in edges):
+            if best is not None and (other not in beside or other == holder):
                 break
-            point = edges.get(other) or _middle(junction)
+            point = in_world(edge, self._graph.pose(object_id)) if other == holder else _middle(junction)
             came = self._nearing(object_id, other, point, first, last)
-            normal = _direction(came) if other in edges else self._normal(object_id, other, point, junction, first)
+            normal = _direction(came) if other == holder else self._normal(object_id, other, point, junction, first)
             closing = dot(came, normal)
             if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
                 step = dot(self._nearing(object_id, other, point, before, last), normal)
@@ -253,15 +255,12 @@ class Landings:
         )
         return (came_m + turned_m) / n_updates / period_s
 
-    def _edge(self, object_id: str, track: MotionTrack, other: str) -> Vector | None:
-        """The point [m], world, at which a door or lid met what a hinge holds it on; None if it did not."""
+    def _way(self, track: MotionTrack, other: str) -> Way:
         theirs, its = self._tracks.get(other), self._graph.pose(other)
         (before, *_), (last, *_) = track.steps[-2:]
         begin = max(track.since, track.steps[0][0], theirs.steps[0][0] if theirs is not None else 0)
         updates = (begin, before, last)
-        way = [(track.pose_at(x), theirs.pose_at(x) if theirs is not None else its) for x in updates]
-        edge = self._edge_that_meets(object_id, other, way)
-        return None if edge is None else in_world(edge, self._graph.pose(object_id))
+        return [(track.pose_at(x), theirs.pose_at(x) if theirs is not None else its) for x in updates]
 
     def _stops_suddenly(
         self, object_id: str, other: str, point_m: Vector, normal: Vector, run: list[tuple[int, float]]

@@ -201,5 +201,7 @@ def test_a_slam_on_a_detailed_mesh_builds_no_search_tree_of_it() -> None:
     door = SceneObject("cabinet door", pose=door_pose(0.0), geometry=Box((WIDTH_M, 1.9, THICK_M)))
     way = [(door_pose(angle), cabinet.pose) for angle in (0.5, 0.1, 0.03)]
     shape = shape_of(mesh)
-    assert edge_that_meets(door.hinged_on(cabinet, PIVOT_M), cabinet, way) is not None
+    hinged_door = door.hinged_on(cabinet, PIVOT_M)
+    assert hinged_door.hinge is not None
+    assert edge_that_meets(hinged_door, hinged_door.hinge, cabinet, way) is not None
     assert "tree" not in vars(shape)
