@@ -221,14 +221,18 @@ class Playback:
         """Number of bursts that are playing, or planned."""
         return 0 if self._bursts is None else self._bursts.n_playing
 
+    @property
+    def outputs(self) -> Sequence[int]:
+        """A token of each present output, for `start_burst`; no later output has the same."""
+        return self._plan.hands
+
     def start_burst(
         self, waves: Sequence[NDArray[np.float32]], weights: Mapping[int, Sequence[float]], at_frame: int
     ) -> None:
-        """Add weighted waves (n,) to some channels, once, from a frame on; do nothing in a pause."""
+        """Add weighted waves (n,) to some of the `outputs`, once, from a frame on; do nothing in a pause."""
         if self._paused_from is None:
             self._bursts = self._bursts or Bursts()
-            by_token = {self._hands[channel]: one for channel, one in weights.items() if channel < len(self._hands)}
-            self._bursts.start(PlannedBurst(at_frame, waves, by_token))
+            self._bursts.start(PlannedBurst(at_frame, waves, weights))
 
     def _routes_of(self, active: Sequence[LoopRow], columns: Sequence[int] | None) -> list[_Route]:
         """The routes of some active rows. Cached, since moving a source repeats a few combinations of rows."""

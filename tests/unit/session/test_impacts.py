@@ -476,19 +476,39 @@ def test_impacts_are_compensated_for_the_actuators_response() -> None:
     )
 
 
+def held_up(monkeypatch: pytest.MonkeyPatch) -> tuple[HapticSession, Event]:
+    """A session of which each impact waits for a worker, which waits for the event."""
+    made, go_on = session(propagation=ModalPlate()), Event()
+
+    def later(*given: Any) -> Any:
+        prepared = struck_later(*given)
+        return lambda: prepared() if go_on.wait(10.0) else None
+
+    made._impacts._ahead = None
+    monkeypatch.setattr(felt_impacts, "struck_later", later)
+    return made, go_on
+
+
+@pytest.mark.parametrize("touching", ["left", "right"])
+def test_impact_that_a_worker_prepares_while_a_hand_is_removed_is_felt_by_its_hand(
+    touching: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made, go_on = held_up(monkeypatch)
+    made.update(touches=[Touch(touching, "table", NEAR)])
+    made.wait_prepared()
+    made.strike("table", STRUCK)
+    made.remove_hand("left")
+    go_on.set()
+    made.wait_prepared()
+    assert rendered(made, 0.2).any() == (touching == "right")
+
+
 @pytest.mark.parametrize(("late_s", "is_felt"), [(0.2, True), (0.4, False)])
 def test_impact_that_a_worker_prepares_too_late_is_left_out(
     late_s: float, is_felt: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A burst is late if its gains are; 0.4 s after the knock it would feel like another one."""
-    made, go_on = session(propagation=ModalPlate()), Event()
-
-    def held_up(*given: Any) -> Any:
-        prepared = struck_later(*given)
-        return lambda: prepared() if go_on.wait(10.0) else None
-
-    made._impacts._ahead = None
-    monkeypatch.setattr(felt_impacts, "struck_later", held_up)
+    made, go_on = held_up(monkeypatch)
     made.update(touches=touches())
     made.wait_prepared()
     impact = made.strike("table", STRUCK)
