@@ -225,7 +225,8 @@ class Impacts:
     def recent(self) -> tuple[Impact, ...]:
         """The impacts of the last second that any hand felt, the latest first."""
         since = self._playback.position - self._config.sample_rate_hz
-        return tuple(one for one in reversed(self._recent) if one.at_sample >= since)
+        # A copy, since a worker may add an impact meanwhile.
+        return tuple(one for one in reversed(self._recent.copy()) if one.at_sample >= since)
 
     def wait(self, end: Deadline) -> bool:
         """Wait for all results of the workers; false after the deadline."""

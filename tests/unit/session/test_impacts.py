@@ -416,6 +416,20 @@ def test_worker_prepares_impacts_for_models_without_a_live_field() -> None:
     assert rendered(made, 0.1).any()
 
 
+@pytest.mark.parametrize("lasts_s", [0.0, 0.5])
+def test_an_impact_after_a_pause_is_felt_though_others_were_before_it(lasts_s: float) -> None:
+    made = session()
+    made.update(touches=touches())
+    made.strike("table", STRUCK)
+    rendered(made)
+    made.pause()
+    made.render(round(lasts_s * RATE))
+    made.resume()
+    made.update(touches=touches())
+    impact = made.strike("table", STRUCK, with_object="phone")
+    assert np.abs(rendered(made)).max() >= 0.99 * impact.felt["left"]
+
+
 def test_pause_and_mute_silence_impacts() -> None:
     made = session()
     made.update(touches=touches())
@@ -487,6 +501,23 @@ def held_up(monkeypatch: pytest.MonkeyPatch) -> tuple[HapticSession, Event]:
     made._impacts._ahead = None
     monkeypatch.setattr(felt_impacts, "struck_later", later)
     return made, go_on
+
+
+def test_a_worker_may_add_an_impact_while_the_latest_are_listed() -> None:
+    made = session()
+    recent = made._impacts._recent
+
+    class Met:
+        felt: tuple[str, ...] = ()
+
+        @property
+        def at_sample(self) -> int:
+            recent.append(later)
+            return 0
+
+    later = Impact("table", STRUCK, None, None, 100.0, 0)
+    recent.extend([later, Met()])  # type: ignore[list-item]
+    assert len(made.impacts) == 2
 
 
 @pytest.mark.parametrize("touching", ["left", "right"])
