@@ -133,6 +133,12 @@ def test_a_frame_without_a_step_delays_no_landing_a_fifth_of_a_second_later() ->
     assert lands_in(iter([*steps[:3], *steps[2:]])) == lands_in(iter(steps)) + 1
 
 
+def test_a_pause_of_more_than_a_tenth_of_a_second_delays_no_landing_after_it() -> None:
+    """It is no gap between steps of slow physics. After more than 12 frames the motion would be forgotten."""
+    steps = [*fall(9.81 * (20.9 * PERIOD_S) ** 2 / 2, PERIOD_S)]
+    assert lands_in(iter([*steps[:3], *[steps[2]] * 11, *steps[3:]])) == lands_in(iter(steps)) + 11
+
+
 def test_stopped_clock_counts_as_the_usual_frame_time() -> None:
     (landing,) = landings_of(fall(0.4, PERIOD_S), clock=False)
     assert landing.speed_m_s == pytest.approx(math.sqrt(2 * 9.81 * 0.4), rel=0.3)
