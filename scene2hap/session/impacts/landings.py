@@ -227,7 +227,8 @@ class Landings:
                 step = dot(self._nearing(object_id, other, point, before, last), normal)
                 onward = dot(self._nearing(object_id, other, point, last, now), normal)
                 most = LEFT * step * shorter if other in beside else 0.0
-                if onward > most or self._rolls(object_id, other, point, normal, closing):
+                middle_m = self._middle_nearing_m(object_id, other, point, normal, first, last)
+                if onward > most or middle_m < ROLLS * closing:
                     continue
                 if self._stops_suddenly(object_id, other, point, normal, [*run, (now, time_s)]):
                     best, most_m = (other, point), closing
@@ -274,15 +275,6 @@ class Landings:
                 return True
             speed, lasted_s = now, lasts_s
         return False
-
-    def _rolls(self, object_id: str, other: str, point_m: Vector, normal: Vector, closing_m: float) -> bool:
-        """Whether an object turned while its middle hardly approached another object, before this step."""
-        track = self._tracks[object_id]
-        run = track.run()
-        since, until = run[0][0], run[-1][0]
-        if track.pose_at(since).rotation_xyzw == track.pose_at(until).rotation_xyzw:
-            return False
-        return self._middle_nearing_m(object_id, other, point_m, normal, since, until) < ROLLS * closing_m
 
     def _middle_nearing_m(
         self, object_id: str, other: str, point_m: Vector, normal: Vector, since: int, until: int
