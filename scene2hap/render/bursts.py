@@ -10,6 +10,7 @@ import math
 from collections import deque
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,6 +71,23 @@ def peak_of(
         n *= 2
 
 
+class Fade(NamedTuple):
+    """Fades out over `n_frames` from a frame of the session's clock on."""
+
+    begin: int
+    n_frames: int
+
+    @property
+    def end(self) -> int:
+        """The first frame of silence."""
+        return self.begin + self.n_frames
+
+    def shares(self, position: int, n_frames: int) -> Samples:
+        """Return the factors of frames from `position` on (n_frames,) [-]."""
+        x = np.clip((position - self.begin + np.arange(n_frames)) / max(1, self.n_frames), 0.0, 1.0)
+        return (0.5 + 0.5 * np.cos(np.pi * x)).astype(np.float32)
+
+
 class PlannedBurst:
     """Waves (n,) of any lengths that are played once, from a frame of the session's clock on.
 
@@ -83,6 +101,13 @@ class PlannedBurst:
         self.n_frames: int = max(map(len, waves), default=0)
         # By token: the first frame of the latest stretch, and its samples.
         self._stretches: dict[int, tuple[int, Samples]] = {}
+        self.fade: Fade | None = None
+
+    @property
+    def end(self) -> int:
+        """The first frame after its waves, or after its fade."""
+        end = self.begin + self.n_frames
+        return end if self.fade is None else min(end, self.fade.end)
 
     def delayed(self, begin: int) -> PlannedBurst:
         """Return the same burst from a later frame on."""
@@ -104,9 +129,8 @@ class Bursts:
     """All bursts that wait or play."""
 
     def __init__(self) -> None:
-        self._incoming: deque[PlannedBurst] = deque()
+        self._incoming: deque[PlannedBurst | Fade] = deque()
         self._playing: list[PlannedBurst] = []
-        self._fade: tuple[int, int] | None = None
 
     @property
     def are_silent(self) -> bool:
@@ -122,32 +146,26 @@ class Bursts:
         """Play a burst from its frame on, or from the next frame if that is past."""
         self._incoming.append(burst)
 
-    def fade(self, at_frame: int, n_frames: int) -> None:
-        """Fade out all bursts over `n_frames` from a frame on, then remove them."""
-        self._fade = (at_frame, n_frames)
+    def fade(self, fade: Fade) -> None:
+        """Fade out the bursts that were started before, and remove them."""
+        self._incoming.append(fade)
 
     def add_to(self, mix: Samples, position: int, outputs: Sequence[int]) -> None:
         """Add to a mix (n_frames, n_outputs) that begins at a frame; `outputs` are the tokens of its columns."""
         while self._incoming:
-            burst = self._incoming.popleft()
-            self._playing.append(burst.delayed(max(burst.begin, position)))
-        fade, n_frames = self._envelope(position, len(mix)), len(mix)
+            one = self._incoming.popleft()
+            if isinstance(one, PlannedBurst):
+                self._playing.append(one.delayed(max(one.begin, position)))
+                continue
+            for burst in self._playing:
+                burst.fade = burst.fade or one
+        n_frames, end = len(mix), position + len(mix)
         for burst in self._playing:
             first = max(0, burst.begin - position)
             for channel, token in enumerate(outputs):
                 begin = position + first - burst.begin
                 part = burst.samples(token, begin, begin + n_frames - first) if first < n_frames else None
                 if part is not None:
-                    share = 1.0 if fade is None else fade[first : first + len(part)]
+                    share = 1.0 if burst.fade is None else burst.fade.shares(position + first, len(part))
                     mix[first : first + len(part), channel] += part * share
-        end = position + n_frames
-        self._playing = [burst for burst in self._playing if burst.begin + burst.n_frames > end]
-        if self._fade is not None and end >= sum(self._fade):
-            self._playing, self._fade = [], None
-
-    def _envelope(self, position: int, n_frames: int) -> Samples | None:
-        if self._fade is None:
-            return None
-        at_frame, length = self._fade
-        x = np.clip((position - at_frame + np.arange(n_frames)) / max(1, length), 0.0, 1.0)
-        return (0.5 + 0.5 * np.cos(np.pi * x)).astype(np.float32)
+        self._playing = [burst for burst in self._playing if burst.end > end]

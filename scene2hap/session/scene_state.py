@@ -16,7 +16,7 @@ from scene2hap.scene.objects import Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import RemovedIds
-from scene2hap.session.impacts.slams import edge_that_meets
+from scene2hap.session.impacts.slams import Way, edge_that_meets
 from scene2hap.session.network import Corners, PlatePoses, body_of, rigid_body_of
 from scene2hap.session.reach import Reach, reach_over
 
@@ -103,10 +103,18 @@ class SceneState:
         x, y, z = self.objects[object_id].geometry.mesh.bounds_m.mean(axis=0).tolist()
         return x, y, z
 
-    def edge_that_meets(self, object_id: str, on: str, way: Sequence[tuple[Pose, Pose]]) -> Vector | None:
-        """See `slams.edge_that_meets`."""
-        holder = self.objects.get(on)
-        return None if holder is None else edge_that_meets(self.objects[object_id], holder, way)
+    def edge_that_meets(self, object_id: str, way: Callable[[str], Way]) -> tuple[str, Vector] | None:
+        """Return what a hinge holds an object on, and where the two meet: see `slams.edge_that_meets`; None if they do
+        not, or without a hinge.
+
+        Parameters: way : returns the way relative to another object.
+        """
+        item = self.objects[object_id]
+        holder = None if item.hinge is None else self.objects.get(item.hinge.to)
+        if item.hinge is None or holder is None:
+            return None
+        edge = edge_that_meets(item, item.hinge, holder, way(holder.id))
+        return None if edge is None else (holder.id, edge)
 
     def on_plate(self, object_id: str, point_m: tuple[float, float, float]) -> tuple[float, float] | None:
         """Coordinates of a world point [m] along length and width of an object's plate; None without a plate."""

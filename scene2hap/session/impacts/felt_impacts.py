@@ -180,13 +180,14 @@ class Impacts:
         self, impact: Impact, burst: Burst, felt: Felt, hands: tuple[str, ...], profile: UserProfile | None
     ) -> None:
         at_frame, f = impact.at_sample, burst.frequencies_hz
-        channels = {i: hands[i] for i in felt}
+        # A hand may be removed before a worker has the gains.
+        outputs = self._playback.outputs
         touched: dict[int, list[TouchedPoint]] = {i: [(x.object_id, x.point_m) for x in felt[i]] for i in felt}
 
         def sound(gains: Floats, begin: int, among: Collection[int]) -> None:
             # Most impacts of a busy scene are too far from every hand.
             if len(gains) and gains.max() * PEAK >= LEAST_GAIN:
-                waves, its = self._waves(burst), {i: channels[i] for i in among}
+                waves, its = self._waves(burst), {outputs[i]: hands[i] for i in among}
                 levels = self._levels(burst, waves, [*its.values()], profile)
                 self._sound(impact, burst, waves, levels * self._capped(gains), its, begin)
 
@@ -224,7 +225,8 @@ class Impacts:
     def recent(self) -> tuple[Impact, ...]:
         """The impacts of the last second that any hand felt, the latest first."""
         since = self._playback.position - self._config.sample_rate_hz
-        return tuple(one for one in reversed(self._recent) if one.at_sample >= since)
+        # A copy, since a worker may add an impact meanwhile.
+        return tuple(one for one in reversed(self._recent.copy()) if one.at_sample >= since)
 
     def wait(self, end: Deadline) -> bool:
         """Wait for all results of the workers; false after the deadline."""
@@ -277,14 +279,14 @@ class Impacts:
         burst: Burst,
         waves: list[Samples],
         weights: Floats,
-        channels: Mapping[int, str],
+        outputs: Mapping[int, str],
         at_frame: int,
     ) -> None:
         felt: dict[int, list[float]] = {}
         was_felt = bool(impact.felt)
-        for (channel, hand), row in zip(channels.items(), weights, strict=True):
+        for (output, hand), row in zip(outputs.items(), weights, strict=True):
             if row.max() >= LEAST_GAIN:
-                felt[channel] = row.tolist()
+                felt[output] = row.tolist()
                 impact.felt[hand] = peak_of(waves, row, burst.decays_s, self._config.sample_rate_hz)
         if felt:
             self._playback.start_burst(waves, felt, at_frame)

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from itertools import pairwise
 from types import MappingProxyType
 from typing import NamedTuple
@@ -27,6 +28,7 @@ from scene2hap.contact.junction import Junction
 from scene2hap.scene.geometry import Vector, dot
 from scene2hap.scene.pose import Pose
 from scene2hap.session.impacts.motion_track import LEAST_TRAVEL_M, LEFT, MOST_STEPS, STILL, MotionTrack, in_world
+from scene2hap.session.impacts.slams import Way
 
 LEAST_SPEED_M_S = 0.1
 """A cup put down more slowly is as good as not felt, and trackers shake as fast."""
@@ -75,7 +77,7 @@ class Landings:
         self,
         graph: ContactGraph,
         middle_m: Callable[[str], Vector],
-        edge_that_meets: Callable[[str, str, Sequence[tuple[Pose, Pose]]], Vector | None],
+        edge_that_meets: Callable[[str, Callable[[str], Way]], tuple[str, Vector] | None],
         period_s: float,
     ) -> None:
         self._graph, self._middle_m, self._edge_that_meets = graph, middle_m, edge_that_meets
@@ -204,53 +206,62 @@ class Landings:
         """The landing on the touched object that was approached the fastest, of equal ones the first by id; empty if
         there is none."""
         run = track.run()
-        (first, begin_s), (before, before_s), (last, end_s) = run[0], run[-2], run[-1]
-        best, most_m, turned_m, turns_m, now = None, LEAST_TRAVEL_M, 0.0, 0.0, self._n_updates
+        (first, _), (before, before_s), (last, end_s) = run[0], run[-2], run[-1]
+        best, most_m, speed, now = None, LEAST_TRAVEL_M, 0.0, self._n_updates
         # The step after a long frame is short, without being slow. The ratio is unknown if the clock stands still.
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
         beside, met = self._graph.beside.get(object_id, _NOTHING), self._met(object_id)
-        edges = {x: edge for x in met if (edge := self._edge(object_id, track, x)) is not None}
+        holder, edge = self._edge_that_meets(object_id, partial(self._way, track)) or (None, STILL)
         # Sorted, since the graph's order depends on the hashes of ids, which differ in each run of Python. Present
         # contacts come first, and hinges last among these: a contact elsewhere shows where the two objects meet.
-        others = sorted(met, key=lambda x: (x not in beside, x in edges, x))
+        others = sorted(met, key=lambda x: (x not in beside, x == holder, x))
         for other, junction in [(x, side) for x in others for side in _sides(met[x])]:
-            if best is not None and (other not in beside or other in edges):
+            if best is not None and (other not in beside or other == holder):
                 break
-            point = edges.get(other) or _middle(junction)
+            point = in_world(edge, self._graph.pose(object_id)) if other == holder else _middle(junction)
             came = self._nearing(object_id, other, point, first, last)
-            normal = _direction(came) if other in edges else self._normal(object_id, other, point, junction, first)
+            normal = _direction(came) if other == holder else self._normal(object_id, other, point, junction, first)
             closing = dot(came, normal)
             if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
                 step = dot(self._nearing(object_id, other, point, before, last), normal)
                 onward = dot(self._nearing(object_id, other, point, last, now), normal)
                 most = LEFT * step * shorter if other in beside else 0.0
-                if onward > most or self._rolls(object_id, other, point, normal, closing):
+                middle_m = self._middle_nearing_m(object_id, other, point, normal, first, last)
+                if onward > most or middle_m < ROLLS * closing:
                     continue
                 if self._stops_suddenly(object_id, other, point, normal, [*run, (now, time_s)]):
                     best, most_m = (other, point), closing
-                    if other in edges:  # an arc of 50 ms is as long as its chord
-                        break
-                    turned_m = dot(self._turning(object_id, point, first, last), normal)
-                    turns_m = dot(self._spin(object_id, point, before, last), normal)
+                    # The two may have met early in the last step.
+                    runs = (run, track.run(1))
+                    speed = max(self._speed(object_id, other, point, normal, one) for one in runs)
         if best is None:
             return []
+        return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
+
+    def _speed(
+        self, object_id: str, other: str, point_m: Vector, normal: Vector, run: Sequence[tuple[int, float]]
+    ) -> float:
+        """Mean speed of an object towards another over a run [m/s], of its middle and of its turns in each step.
+
+        The chord of a fast turn is no measure of its speed: the bottom of a spinning ball was lately its top.
+        """
+        (first, begin_s), (last, end_s) = run[0], run[-1]
         n_updates, elapsed_s = last - first, end_s - begin_s
         stands_still = elapsed_s <= 0 or (n_updates > 1 and run[1][1] == end_s)
         period_s = self._period_s if stands_still else elapsed_s / n_updates
-        # The chord of a fast turn is no measure of its speed: the bottom of a spinning ball was lately its top.
-        speed = ((most_m - turned_m) / n_updates + turns_m / (last - before)) / period_s
-        return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
+        came_m = self._middle_nearing_m(object_id, other, point_m, normal, first, last)
+        turned_m = sum(
+            dot(self._spin(object_id, point_m, since, until), normal) for (since, _), (until, _) in pairwise(run)
+        )
+        return (came_m + turned_m) / n_updates / period_s
 
-    def _edge(self, object_id: str, track: MotionTrack, other: str) -> Vector | None:
-        """The point [m], world, at which a door or lid met what a hinge holds it on; None if it did not."""
+    def _way(self, track: MotionTrack, other: str) -> Way:
         theirs, its = self._tracks.get(other), self._graph.pose(other)
         (before, *_), (last, *_) = track.steps[-2:]
         begin = max(track.since, track.steps[0][0], theirs.steps[0][0] if theirs is not None else 0)
         updates = (begin, before, last)
-        way = [(track.pose_at(x), theirs.pose_at(x) if theirs is not None else its) for x in updates]
-        edge = self._edge_that_meets(object_id, other, way)
-        return None if edge is None else in_world(edge, self._graph.pose(object_id))
+        return [(track.pose_at(x), theirs.pose_at(x) if theirs is not None else its) for x in updates]
 
     def _stops_suddenly(
         self, object_id: str, other: str, point_m: Vector, normal: Vector, run: list[tuple[int, float]]
@@ -265,25 +276,13 @@ class Landings:
             speed, lasted_s = now, lasts_s
         return False
 
-    def _rolls(self, object_id: str, other: str, point_m: Vector, normal: Vector, closing_m: float) -> bool:
-        """Whether an object turned while its middle hardly approached another object, before this step."""
+    def _middle_nearing_m(
+        self, object_id: str, other: str, point_m: Vector, normal: Vector, since: int, until: int
+    ) -> float:
+        """Travel of an object's middle between two updates along a normal, relative to another object [m]."""
         track = self._tracks[object_id]
-        run = track.run()
-        since, until = run[0][0], run[-1][0]
-        begin, end = track.pose_at(since), track.pose_at(until)
-        if begin.rotation_xyzw == end.rotation_xyzw:
-            return False
-        (x, y, z), (u, v, w) = in_world(track.own_m, end), in_world(track.own_m, begin)
-        a, b, c = self._travel(other, point_m, since, until)
-        return dot((x - u - a, y - v - b, z - w - c), normal) < ROLLS * closing_m
-
-    def _turning(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
-        """Travel between two updates of the part of an object that is now at a point, relative to its middle [m]."""
-        x, y, z = self._travel(object_id, point_m, since, until)
-        track = self._tracks[object_id]
-        a, b, c = in_world(track.own_m, track.pose_at(since))
-        u, v, w = in_world(track.own_m, track.pose_at(until))
-        return x + a - u, y + b - v, z + c - w
+        begin, end = in_world(track.own_m, track.pose_at(since)), in_world(track.own_m, track.pose_at(until))
+        return dot(_difference(_difference(end, begin), self._travel(other, point_m, since, until)), normal)
 
     def _spin(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
         """Product of the sine of the turn between two updates and the arm from the object's middle to a point [m]."""
@@ -292,7 +291,8 @@ class Landings:
         if begin.rotation_xyzw == end.rotation_xyzw:
             return STILL
         turn = end.rotation @ begin.rotation.T
-        x, y, z = ((turn - turn.T) / 2 @ (np.array(point_m) - in_world(track.own_m, end))).tolist()
+        arm_m = np.subtract(point_m, in_world(track.own_m, self._graph.pose(object_id)))
+        x, y, z = ((turn - turn.T) / 2 @ arm_m).tolist()
         return x, y, z
 
     def _nearing(self, object_id: str, other: str, point_m: Vector, since: int, until: int) -> Vector:

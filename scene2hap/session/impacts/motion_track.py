@@ -126,9 +126,10 @@ class MotionTrack:
         if len(self.steps) > 4 * MOST_STEPS:
             del self.steps[:-MOST_STEPS]
 
-    def run(self) -> list[tuple[int, float]]:
-        """Return the numbers and times [s] of the latest steps in one direction, at least two."""
-        latest = [(update, time_s) for update, time_s, _ in self.steps[-MOST_STEPS:]]
+    def run(self, n_without: int = 0) -> list[tuple[int, float]]:
+        """Return the numbers and times [s] of the latest steps in one direction, at least two, without the last few."""
+        end = len(self.steps) - n_without
+        latest = [(update, time_s) for update, time_s, _ in self.steps[max(0, end - MOST_STEPS) : end]]
         end_s = latest[-1][1]
         kept = [(update, time_s) for update, time_s in latest if update >= self.since and end_s - time_s <= WINDOW_S]
         return kept if len(kept) > 1 else latest[-2:]

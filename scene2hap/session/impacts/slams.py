@@ -21,7 +21,7 @@ from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.scene.geometry import Vector
 from scene2hap.scene.hinges import HINGE_PLAY_M
-from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.objects import Hinge, SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import Box
 
@@ -29,14 +29,14 @@ _ENDS = np.array(list(product((0, 1), repeat=3)))
 """The end of a box along each axis at which each of its corners is."""
 
 
-def edge_that_meets(item: SceneObject, holder: SceneObject, way: Sequence[tuple[Pose, Pose]]) -> Vector | None:
-    """Return the middle of the far side of a door or lid [m], in its own frame, if what its hinge holds it on is in its
-    way; None if it has no such hinge.
+Way = Sequence[tuple[Pose, Pose]]
+"""Poses of an object and of another one at the start of the motion, a step ago, and now."""
 
-    Parameters: way : poses of the object and its holder at the start of the motion, a step ago, and now.
-    """
-    hinge = item.hinge
-    if hinge is None or hinge.to != holder.id or (holder.hinge is not None and way[0][1] != way[-1][1]):
+
+def edge_that_meets(item: SceneObject, hinge: Hinge, holder: SceneObject, way: Way) -> Vector | None:
+    """Return the middle of the far side of a door or lid [m], in its own frame, if what its hinge holds it on is in its
+    way; None if not, or if the hinge does not hold."""
+    if holder.hinge is not None and way[0][1] != way[-1][1]:
         return None
     begin, before, now = (its.inverse().compose(pose) for pose, its in way)
     if math.dist(now.to_world([hinge.point_m])[0], hinge.other_point_m) >= HINGE_PLAY_M:
@@ -49,8 +49,8 @@ def edge_that_meets(item: SceneObject, holder: SceneObject, way: Sequence[tuple[
     middle, sizes_m = (far + (low + high) / 2) / 2, np.where(np.arange(3) == axis, 0.5, 1.0) * (high - low)
     half, at = _box(tuple(sizes_m.tolist())), Pose(tuple(middle))
     begin, before, now = (pose.compose(at) for pose in (begin, before, now))
-    # Steps as long as the play cannot pass through the holder.
-    shares = np.linspace(0, 1, 1 + math.ceil(travels_m.max() / HINGE_PLAY_M))
+    # Steps of twice the play cannot pass through the holder: what is within the play on either side counts as met.
+    shares = np.linspace(0, 1, 1 + math.ceil(travels_m.max() / (2 * HINGE_PLAY_M))).tolist()
     first, *onward = (Body("", half, pose, 1) for pose in (begin, *(_onward(before, now, share) for share in shares)))
     on = _near(shape_of(holder.geometry.mesh), [first, *onward])
     if on is None or _meet(first, on) or not any(_meet(one, on) for one in onward):
@@ -87,4 +87,4 @@ def _onward(before: Pose, now: Pose, share: float) -> Pose:
     was, rotation = np.array(before.rotation_xyzw), np.array(now.rotation_xyzw)
     rotation = rotation + share * (rotation - math.copysign(1.0, was @ rotation) * was)
     position_m = np.array(now.position_m) + share * np.subtract(now.position_m, before.position_m)
-    return Pose(tuple(position_m), tuple(rotation / np.linalg.norm(rotation)))
+    return Pose.of_checked(tuple(position_m.tolist()), tuple((rotation / np.linalg.norm(rotation)).tolist()))

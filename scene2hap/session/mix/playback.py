@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.devices.protocol import Block
-from scene2hap.render.bursts import Bursts, PlannedBurst
+from scene2hap.render.bursts import Bursts, Fade, PlannedBurst
 from scene2hap.render.limiter import soft_limit
 from scene2hap.render.loop_bank import Slot, SlotBank, position_s
 from scene2hap.render.mixer import Mixer
@@ -149,7 +149,7 @@ class Playback:
         self._banks = [self._new_bank(len(rows))]
         self._mixers = [MixerInstance(config, self._banks[0], tuple(self._hands), 0)]
         self._plan = self._new_plan()
-        self._bursts: Bursts | None = None  # at the first impact
+        self._bursts = Bursts()
         self._limits: HandLimits | None = None
         # Twice the ramp, since gain changes in quick succession may have to wait.
         fade_s = 2 * max(config.control_period_s, MIN_RAMP_S) + self._mixers[0].mixer.delay_s + 0.01
@@ -219,16 +219,19 @@ class Playback:
     @property
     def n_bursts(self) -> int:
         """Number of bursts that are playing, or planned."""
-        return 0 if self._bursts is None else self._bursts.n_playing
+        return self._bursts.n_playing
+
+    @property
+    def outputs(self) -> Sequence[int]:
+        """A token of each present output, for `start_burst`; no later output has the same."""
+        return self._plan.hands
 
     def start_burst(
         self, waves: Sequence[NDArray[np.float32]], weights: Mapping[int, Sequence[float]], at_frame: int
     ) -> None:
-        """Add weighted waves (n,) to some channels, once, from a frame on; do nothing in a pause."""
+        """Add weighted waves (n,) to some of the `outputs`, once, from a frame on; do nothing in a pause."""
         if self._paused_from is None:
-            self._bursts = self._bursts or Bursts()
-            by_token = {self._hands[channel]: one for channel, one in weights.items() if channel < len(self._hands)}
-            self._bursts.start(PlannedBurst(at_frame, waves, by_token))
+            self._bursts.start(PlannedBurst(at_frame, waves, weights))
 
     def _routes_of(self, active: Sequence[LoopRow], columns: Sequence[int] | None) -> list[_Route]:
         """The routes of some active rows. Cached, since moving a source repeats a few combinations of rows."""
@@ -336,8 +339,7 @@ class Playback:
             at_frame = self.now
             for mixer in self._mixers:
                 mixer.silence(at_frame)
-            if self._bursts is not None:
-                self._bursts.fade(at_frame, self._fade_frames)
+            self._bursts.fade(Fade(at_frame, self._fade_frames))
             self._paused_from = at_frame
 
     def resume(self) -> None:
@@ -383,9 +385,8 @@ class Playback:
             for mixer, outputs, channels in plan.mixers:
                 total[:, channels] += mixer.render(self._position, n_frames)[:, outputs]
             mix = soft_limit(total)
-        bursts = self._bursts
-        if bursts is not None and not bursts.are_silent:
-            bursts.add_to(mix, self._position, plan.hands)
+        if not self._bursts.are_silent:
+            self._bursts.add_to(mix, self._position, plan.hands)
             mix = soft_limit(mix)
         self._position += n_frames
         return mix

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from scene2hap.render.bursts import Bursts, PlannedBurst, Samples, peak_of, summed, wave_of
+from scene2hap.render.bursts import Bursts, Fade, PlannedBurst, Samples, peak_of, summed, wave_of
 
 RATE = 48_000
 
@@ -97,10 +97,23 @@ def test_late_burst_starts_with_the_next_frame() -> None:
 def test_fade_ends_all_bursts_without_a_click() -> None:
     bursts, mix = Bursts(), np.zeros((9600, 1), np.float32)
     bursts.start(PlannedBurst(0, [wave_of(100.0, 0.1, RATE)], {0: [1.0]}))
-    bursts.fade(1000, 1500)
+    bursts.fade(Fade(1000, 1500))
     for begin in range(0, 9600, 480):
         bursts.add_to(mix[begin : begin + 480], begin, (0,))
     assert np.abs(mix[900:1000]).max() > 0.2
     assert not mix[2500:].any()
     assert above_1_khz_db(mix[:, 0]) < -60.0
     assert bursts.are_silent
+
+
+@pytest.mark.parametrize("before", [0, 1])
+def test_fade_does_not_end_bursts_that_start_after_it(before: int) -> None:
+    wave, bursts, mix = wave_of(100.0, 0.1, RATE), Bursts(), np.zeros((1000, 1), np.float32)
+    for _ in range(before):
+        bursts.start(PlannedBurst(0, [wave], {0: [1.0]}))
+    bursts.fade(Fade(0, 200))
+    bursts.start(PlannedBurst(500, [wave], {0: [1.0]}))
+    bursts.add_to(mix, 0, (0,))
+    np.testing.assert_array_equal(mix[500:, 0], wave[:500])
+    assert mix[:200].any() == bool(before)
+    assert not mix[200:500].any()

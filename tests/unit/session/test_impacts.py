@@ -416,6 +416,20 @@ def test_worker_prepares_impacts_for_models_without_a_live_field() -> None:
     assert rendered(made, 0.1).any()
 
 
+@pytest.mark.parametrize("lasts_s", [0.0, 0.5])
+def test_an_impact_after_a_pause_is_felt_though_others_were_before_it(lasts_s: float) -> None:
+    made = session()
+    made.update(touches=touches())
+    made.strike("table", STRUCK)
+    rendered(made)
+    made.pause()
+    made.render(round(lasts_s * RATE))
+    made.resume()
+    made.update(touches=touches())
+    impact = made.strike("table", STRUCK, with_object="phone")
+    assert np.abs(rendered(made)).max() >= 0.99 * impact.felt["left"]
+
+
 def test_pause_and_mute_silence_impacts() -> None:
     made = session()
     made.update(touches=touches())
@@ -476,19 +490,56 @@ def test_impacts_are_compensated_for_the_actuators_response() -> None:
     )
 
 
+def held_up(monkeypatch: pytest.MonkeyPatch) -> tuple[HapticSession, Event]:
+    """A session of which each impact waits for a worker, which waits for the event."""
+    made, go_on = session(propagation=ModalPlate()), Event()
+
+    def later(*given: Any) -> Any:
+        prepared = struck_later(*given)
+        return lambda: prepared() if go_on.wait(10.0) else None
+
+    made._impacts._ahead = None
+    monkeypatch.setattr(felt_impacts, "struck_later", later)
+    return made, go_on
+
+
+def test_a_worker_may_add_an_impact_while_the_latest_are_listed() -> None:
+    made = session()
+    recent = made._impacts._recent
+
+    class Met:
+        felt: tuple[str, ...] = ()
+
+        @property
+        def at_sample(self) -> int:
+            recent.append(later)
+            return 0
+
+    later = Impact("table", STRUCK, None, None, 100.0, 0)
+    recent.extend([later, Met()])  # type: ignore[list-item]
+    assert len(made.impacts) == 2
+
+
+@pytest.mark.parametrize("touching", ["left", "right"])
+def test_impact_that_a_worker_prepares_while_a_hand_is_removed_is_felt_by_its_hand(
+    touching: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made, go_on = held_up(monkeypatch)
+    made.update(touches=[Touch(touching, "table", NEAR)])
+    made.wait_prepared()
+    made.strike("table", STRUCK)
+    made.remove_hand("left")
+    go_on.set()
+    made.wait_prepared()
+    assert rendered(made, 0.2).any() == (touching == "right")
+
+
 @pytest.mark.parametrize(("late_s", "is_felt"), [(0.2, True), (0.4, False)])
 def test_impact_that_a_worker_prepares_too_late_is_left_out(
     late_s: float, is_felt: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A burst is late if its gains are; 0.4 s after the knock it would feel like another one."""
-    made, go_on = session(propagation=ModalPlate()), Event()
-
-    def held_up(*given: Any) -> Any:
-        prepared = struck_later(*given)
-        return lambda: prepared() if go_on.wait(10.0) else None
-
-    made._impacts._ahead = None
-    monkeypatch.setattr(felt_impacts, "struck_later", held_up)
+    made, go_on = held_up(monkeypatch)
     made.update(touches=touches())
     made.wait_prepared()
     impact = made.strike("table", STRUCK)

@@ -55,13 +55,13 @@ def pushed(speed_rad_s: float) -> Angles:
     return lambda time_s: max(0.0, math.pi / 2 - speed_rad_s * time_s)
 
 
-@pytest.mark.parametrize("frames_hz", [45, 90, 144])
+@pytest.mark.parametrize("frames_hz", [30, 45, 90, 144])
 @pytest.mark.parametrize("speed_rad_s", [1.5, 3.0, 6.0])
 def test_a_door_that_slams_is_felt_once_where_its_edge_meets_the_cabinet(speed_rad_s: float, frames_hz: float) -> None:
     (slam,) = impacts_of(hinged(), pushed(speed_rad_s), frames_hz=frames_hz)
     assert (slam.object_id, slam.with_object) == ("cabinet", "cabinet door")
     assert slam.point_m == pytest.approx((-0.3, 1.0, FRONT_M), abs=2 * THICK_M)
-    assert slam.speed_m_s == pytest.approx(speed_rad_s * WIDTH_M, rel=0.25)  # its last step may be shorter
+    assert slam.speed_m_s == pytest.approx(speed_rad_s * WIDTH_M, rel=0.03)
     assert slam.felt["left"] > 0
 
 
@@ -181,7 +181,7 @@ def test_a_door_slams_at_the_middle_of_its_edge_also_if_its_hinge_is_given_at_th
     scene = SceneSnapshot.build([CABINET, door.hinged_on(CABINET, (PIVOT_M[0], 0.1, FRONT_M))])
     (slam,) = impacts_of(HapticSession(scene, bake(scene)), pushed(3.0))
     assert slam.point_m == pytest.approx((-0.3, 1.0, FRONT_M), abs=2 * THICK_M)
-    assert slam.speed_m_s == pytest.approx(3.0 * WIDTH_M, rel=0.25)
+    assert slam.speed_m_s == pytest.approx(3.0 * WIDTH_M, rel=0.03)
 
 
 def test_the_door_of_a_cabinet_that_a_hinge_holds_on_the_wall_slams() -> None:
@@ -201,5 +201,7 @@ def test_a_slam_on_a_detailed_mesh_builds_no_search_tree_of_it() -> None:
     door = SceneObject("cabinet door", pose=door_pose(0.0), geometry=Box((WIDTH_M, 1.9, THICK_M)))
     way = [(door_pose(angle), cabinet.pose) for angle in (0.5, 0.1, 0.03)]
     shape = shape_of(mesh)
-    assert edge_that_meets(door.hinged_on(cabinet, PIVOT_M), cabinet, way) is not None
+    hinged_door = door.hinged_on(cabinet, PIVOT_M)
+    assert hinged_door.hinge is not None
+    assert edge_that_meets(hinged_door, hinged_door.hinge, cabinet, way) is not None
     assert "tree" not in vars(shape)
