@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
+from scene2hap.common.web import WebReply
 from scene2hap.llm.backends.pace import Pace
-from scene2hap.web import WebReply
 
 
 def reply(status: int, headers: dict[str, str], text: str = "") -> WebReply:
