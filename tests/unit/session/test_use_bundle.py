@@ -22,9 +22,9 @@ from scene2hap import (
     Pose,
     SceneWarning,
     Touch,
-    bundle_watch,
 )
 from scene2hap.errors import BundleError
+from scene2hap.session import bundle_watch
 from scenes import RATE, table_with_two_phones
 
 
