@@ -86,6 +86,21 @@ def test_an_endless_body_is_ended() -> None:
     assert stream.n_sent <= http_client.MAX_REPLY_BYTES + 65536
 
 
+def test_a_body_of_the_most_bytes_is_taken() -> None:
+    body = bytes(LIMITS.max_bytes)
+    assert asked(httpx.Response(200, stream=httpx.ByteStream(body))).content == body
+    with pytest.raises(BackendUnavailable, match=f"more than {len(body)} bytes"):
+        asked(httpx.Response(200, stream=httpx.ByteStream(body + b"0")))
+
+
+def test_an_endless_body_that_unpacks_to_little_is_ended() -> None:
+    """What follows a packed document is not unpacked."""
+    stream = Endless(gzip.compress(b"{}") + bytes(65536))
+    with pytest.raises(BackendUnavailable, match="more than"):
+        asked(httpx.Response(200, headers={"content-encoding": "gzip"}, stream=stream))
+    assert stream.n_sent <= LIMITS.max_bytes + len(stream.chunk)
+
+
 def test_a_body_that_drips_for_ever_is_ended() -> None:
     with pytest.raises(BackendUnavailable, match="did not answer within") as caught:
         posted(httpx.Response(200, stream=Endless(b" ", 0.01)), timeout_s=0.2)

@@ -141,6 +141,15 @@ def test_check_finds_nothing_in_a_valid_room() -> None:
             "y",
         ),
         (
+            "quaternions",
+            tuple(item.id for item in ROOM),
+            [
+                moved(item, pose=Pose(item.pose.position_m, (math.cos(0.1 * k), 0.0, 0.0, math.sin(0.1 * k))))
+                for k, item in enumerate(ROOM)
+            ],
+            "z",
+        ),
+        (
             "units",
             tuple(item.id for item in ROOM),
             [
@@ -218,6 +227,13 @@ def gallery(*more: str) -> list[SceneObject]:
             for k, name in enumerate(names)
         ),
     ]
+
+
+def test_three_objects_beside_each_other_do_not_tip_the_up_axis() -> None:
+    books = [
+        SceneObject(f"book {k}", pose=Pose((0, 0.1 * k, 0.1 * k)), geometry=Box((0.2, 0.2, 0.1))) for k in range(3)
+    ]
+    assert SceneSnapshot.build(books).check() == ()
 
 
 @pytest.mark.parametrize("more", [(), ("mirror", "shelf")])

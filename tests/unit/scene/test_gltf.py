@@ -11,6 +11,7 @@ import pytest
 from gltf_builder import CUBE, CUBE_FACES, Gltf, one_cube
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.formats.gltf import read_gltf
+from scene2hap.scene.formats.gltf_accessors import unpacked
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.shapes import TriMesh
@@ -83,6 +84,10 @@ def test_quantised_positions_are_scaled_to_one(tmp_path: Path, dtype: str, large
     indices = gltf.accessor(CUBE_FACES.reshape(-1), "u2", "SCALAR")
     gltf.node("cube", mesh=gltf.mesh({"attributes": {"POSITION": positions}, "indices": indices}), root=True)
     np.testing.assert_array_equal(read(gltf, tmp_path).pieces[0].vertices, CUBE)
+
+
+def test_the_lowest_signed_number_is_read_as_minus_one() -> None:
+    assert unpacked(np.array([-128, -127, 0, 127], np.int8)).tolist() == [-1.0, -1.0, 0.0, 1.0]
 
 
 def test_integer_positions_without_normalisation_are_kept(tmp_path: Path) -> None:
@@ -168,6 +173,15 @@ def test_transforms_chain_from_the_root_down(tmp_path: Path) -> None:
     gltf.node("turned", children=[leaf], rotation=[0.0, 1.0, 0.0, 0.0], root=True)
     item = load_scene(gltf.write(tmp_path / "scene.glb")).objects[0]
     np.testing.assert_allclose(item.bounds_m, [[-4.0, 0.0, -2.0], [-2.0, 2.0, 0.0]], atol=1e-12)
+
+
+def test_a_node_is_scaled_before_it_is_turned(tmp_path: Path) -> None:
+    """A quarter turn about z takes x to y, and y to -x."""
+    half = float(np.sqrt(0.5))
+    item = load_scene(
+        one_cube(rotation=[0.0, 0.0, half, half], scale=[2.0, 3.0, 4.0]).write(tmp_path / "s.glb")
+    ).objects[0]
+    np.testing.assert_allclose(item.bounds_m, [[-3.0, 0.0, 0.0], [0.0, 2.0, 4.0]], atol=1e-12)
 
 
 def test_node_matrix_is_column_major(tmp_path: Path) -> None:
@@ -264,7 +278,7 @@ def test_only_the_default_scene_is_read(tmp_path: Path) -> None:
 
 def test_every_root_node_is_read_when_no_scene_is_defined(tmp_path: Path) -> None:
     gltf = one_cube("a")
-    gltf.node("b", mesh=0)
+    gltf.node("b", children=[gltf.node("leg", mesh=0)])
     del gltf.header["scenes"], gltf.header["scene"]
     assert [item.id for item in load_scene(gltf.write(tmp_path / "scene.glb")).objects] == ["a", "b"]
 

@@ -58,6 +58,14 @@ def test_pieces_of_other_materials_that_meet_are_one_part() -> None:
     assert [len(part) for part in parts(cubes(0.0), cubes(1.0, 5.0, key="other"))] == [2, 1]
 
 
+def test_parts_are_in_the_order_of_their_faces() -> None:
+    whole = cubes(0.0, 5.0, 9.0)
+    found = parts(replace(whole, faces=np.roll(whole.faces, N, axis=0)))
+    assert [float(part[0].vertices[:, 0].min()) for part in found] == pytest.approx(
+        [x + CUBE[:, 0].min() for x in (9, 0, 5)]
+    )
+
+
 def test_corners_that_differ_by_the_rounding_of_float32_are_one_place() -> None:
     apart = cubes(0.0, 7.0, by_corner=True)
     off = np.random.default_rng(1).uniform(-2e-7, 2e-7, apart.vertices.shape)
