@@ -10,6 +10,7 @@ import pytest
 
 from gltf_builder import CUBE, CUBE_FACES, Gltf, one_cube
 from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene import limits
 from scene2hap.scene.formats.gltf import read_gltf
 from scene2hap.scene.formats.gltf_accessors import unpacked
 from scene2hap.scene.load import load_scene
@@ -356,6 +357,16 @@ def test_each_copy_of_an_instanced_mesh_is_an_object(tmp_path: Path) -> None:
     assert (first.id, second.id) == ("chair", "chair#2")
     np.testing.assert_allclose(first.bounds_m, [(10, 0, 0), (11, 1, 1)], atol=1e-6)
     np.testing.assert_allclose(second.bounds_m, [(15, 0, -1), (17, 1, 0)], atol=1e-6)
+
+
+def test_triangles_of_all_copies_count(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = instanced(TRANSLATION=[[3 * k, 0, 0] for k in range(4)]).write(tmp_path / "chairs.glb")
+    n = 4 * len(CUBE_FACES)
+    monkeypatch.setattr(limits, "MAX_TRIANGLES", n - 1)
+    with pytest.raises(SceneError, match=f"number of triangles is {n};"):
+        load_scene(path)
+    monkeypatch.setattr(limits, "MAX_TRIANGLES", n)
+    assert len(load_scene(path).objects) == 4
 
 
 def test_legs_that_are_instances_are_parts_of_their_rack(tmp_path: Path) -> None:
