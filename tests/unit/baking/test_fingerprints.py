@@ -187,6 +187,7 @@ def test_user_clip_keeps_its_pitch_and_others_are_moved_away(bundle: HapticBundl
     wished = bundle.override("desk_fan", clip=own_tone(101.0))
     again, told = remade(wished)
     assert felt(again)["desk_fan"] == pytest.approx(101.0, abs=0.2)
+    assert again.loops["desk_fan"]["on"].source is None  # the override has the clip
     assert abs(np.log2(felt(again)["microwave_oven"] / 101.0)) > 0.1
     assert told["microwave_oven"]
     kept = HapticBundle.load(wished.save(tmp_path / "b")).overrides

@@ -64,6 +64,11 @@ def test_cupboards_along_a_side_are_no_wall() -> None:
     assert walls(room({**FLOOR, **cupboards})) == {}
 
 
+def test_a_drainpipe_outside_is_no_wall() -> None:
+    pipe: Things = {"pipe": ((1.0, HEIGHT / 2, -2.05), (0.1, HEIGHT, 0.08))}
+    assert set(walls(room({**FLOOR, **WALLS, **pipe}))) == set(WALLS)
+
+
 def test_wall_pieces_are_joined() -> None:
     pieces: Things = {f"wall_{i}": ((-1.5 + i, HEIGHT / 2, -1.95), (1.0, HEIGHT, THICK)) for i in range(4)}
     assert set(walls(room({**FLOOR, **pieces, **FURNITURE}))) == set(pieces)

@@ -77,6 +77,12 @@ def test_a_connected_mesh_stays_as_it_is() -> None:
     assert parts(piece) == [(piece,)]
 
 
+@pytest.mark.parametrize(("at", "mass_kg"), [((0.0,), 5.0), ((0.0, 7.0), None)])
+def test_only_a_mesh_of_one_part_keeps_its_mass(at: tuple[float, ...], mass_kg: float | None) -> None:
+    node = AuthoredNode("Bathroom", np.eye(4), (cubes(*at),), mass_kg=5.0)
+    assert {item.mass_kg for item in group_objects([node], "loose")} == {mass_kg}
+
+
 def test_more_parts_than_a_scene_may_have_objects_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(limits, "MAX_OBJECTS", 4)
     with pytest.raises(SceneError, match="loose parts of 'Bathroom' is 5"):
