@@ -350,6 +350,23 @@ def test_an_object_that_floats_inside_another_is_found() -> None:
     assert not list(ContactGraph(scene).neighbours("milk"))
 
 
+def test_nothing_floats_inside_another_object_in_a_wrong_unit() -> None:
+    """The bottom of the refrigerator is 50 mm below the milk, and read as 50 m."""
+    near = [
+        moved(
+            item,
+            pose=Pose(tuple(1000 * x for x in item.pose.position_m)),
+            geometry=Box(tuple(1000 * x for x in item.geometry.size_m)),
+            surface=None,
+        )
+        for item in (*ROOM, FRIDGE, milk_at(1.0, 0.15))
+    ]
+    with pytest.warns(UnitWarning):
+        found = SceneSnapshot.build(near).check()
+    assert found[0].kind == "units"
+    assert not any("inside another object" in str(one) for one in found)
+
+
 @pytest.mark.parametrize(
     ("others", "why"),
     [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import struct
 from pathlib import Path
 
 import numpy as np
@@ -64,6 +65,14 @@ def test_a_file_name_in_the_header_may_be_quoted(tmp_path: Path) -> None:
     path = tmp_path / "cube.gltf"
     path.write_text(json.dumps(gltf.header), encoding="utf-8")
     assert len(load_scene(path).objects) == 1
+
+
+def test_of_several_binary_chunks_the_first_is_read(tmp_path: Path) -> None:
+    data = one_cube().glb()
+    data += struct.pack("<I", 64) + b"BIN\0" + bytes(64)
+    path = tmp_path / "cube.glb"
+    path.write_bytes(data[:8] + struct.pack("<I", len(data)) + data[12:])
+    np.testing.assert_array_equal(load_scene(path).objects[0].bounds_m, [[0, 0, 0], [1, 1, 1]])
 
 
 def test_interleaved_vertices_are_read_by_stride(tmp_path: Path) -> None:

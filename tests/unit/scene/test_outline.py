@@ -92,6 +92,18 @@ def test_notches_are_corners_that_point_inwards() -> None:
     assert len(Outline((ring.tolist(), (0.5 * ring).tolist())).notches_m) == 0  # curves have no notches
 
 
+def test_corners_of_a_curve_do_not_depend_on_where_its_ring_begins() -> None:
+    """A square with half a disc cut out of one side."""
+    turn = np.linspace(np.pi, 0.0, 13)
+    bite = np.column_stack([0.5 + 0.2 * np.cos(turn), 0.2 * np.sin(turn)])
+    ring = np.concatenate([bite, [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)]])
+    inward = {tuple(corner) for corner in bite[1:-1].tolist()}
+    for start in range(len(ring)):
+        corners, radii_m = Outline((np.roll(ring, start, axis=0),)).inward
+        assert {tuple(corner) for corner in corners.tolist()} == inward
+        assert radii_m == pytest.approx(0.2, rel=0.02)
+
+
 @pytest.mark.parametrize("angle_rad", [-0.7, 0.0, 0.3])
 def test_slant_is_that_of_the_sides_of_notches(angle_rad: float) -> None:
     assert Outline((SQUARE,)).turned(angle_rad)[0].slant_rad == 0.0

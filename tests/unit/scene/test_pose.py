@@ -146,3 +146,5 @@ def test_a_transposed_matrix_and_one_with_perspective_are_refused() -> None:
     with pytest.raises(SceneError, match=r"\(1.0, 2.0, 3.0, 1.0\) in its last row.*Give matrix.T"):
         Pose.from_matrix(matrix)
     assert Pose.from_matrix(matrix.T).position_m == (1.0, 2.0, 3.0)
+    with pytest.raises(SceneError, match=r"\(0.0, 0.0, 0.5, 1.0\) in its last row"):
+        Pose.from_matrix([*np.eye(4)[:3], (0.0, 0.0, 0.5, 1.0)])

@@ -65,10 +65,15 @@ def test_only_complete_cuboids_are_recognised() -> None:
     one_turned[3] = one_turned[3, ::-1]
     twice[1] = twice[0]
     other_half[:2] = other_half[2:4]
+    # Both diagonals of one side, which its four corners allow, and another side left open.
+    open_box, (first, second) = faces.copy(), faces[:2].tolist()
+    (lone,), (opposite,) = {*first} - {*second}, {*second} - {*first}
+    x, y = (first * 2)[first.index(lone) + 1 :][:2]
+    open_box[2:4] = (lone, x, opposite), (lone, opposite, y)
     dented = points.copy()
     dented[0] *= 0.9
     flat = points * [1, 1, 0]
-    wrong = [(points, faces[:11]), (points, one_turned), (points, twice), (points, other_half)]
+    wrong = [(points, each) for each in (faces[:11], one_turned, twice, other_half, open_box)]
     for vertices, triangles in [*wrong, (dented, faces), (flat, faces)]:
         assert cuboid_bounds_m(TriMesh(vertices, triangles)) is None
 
