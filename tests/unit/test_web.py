@@ -65,6 +65,23 @@ def test_only_a_status_of_success_is_ok() -> None:
     assert [status for status in (199, 200, 204, 299, 300) if WebReply("", status, b"").ok] == [200, 204, 299]
 
 
+def redirecting(target: str) -> httpx.MockTransport:
+    def answer(request: httpx.Request) -> httpx.Response:
+        is_there = request.url == httpx.URL(target)
+        return httpx.Response(200, content=b"there") if is_there else httpx.Response(302, headers={"location": target})
+
+    return httpx.MockTransport(answer)
+
+
+def test_redirects_are_followed_to_safe_addresses_and_never_with_a_key() -> None:
+    safe, unsafe = "https://b.example/x", "http://b.example/x"
+    assert web.get("https://a.example/", LIMITS, transport=redirecting(safe)).content == b"there"
+    with pytest.raises(BackendUnavailable, match="http://b.example, which is not safe"):
+        web.get("https://a.example/", LIMITS, transport=redirecting(unsafe))
+    kept = web.get("https://a.example/", LIMITS, authorization=lambda: KEY, transport=redirecting(safe))
+    assert kept.status == 302
+
+
 def test_a_gzip_bomb_is_refused_before_it_unpacks() -> None:
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     body = bomb()

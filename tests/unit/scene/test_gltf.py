@@ -96,6 +96,18 @@ def test_quantised_positions_are_scaled_to_one(tmp_path: Path, dtype: str, large
     np.testing.assert_array_equal(read(gltf, tmp_path).pieces[0].vertices, CUBE)
 
 
+def test_a_quantised_mesh_that_is_mirrored_faces_outwards(tmp_path: Path) -> None:
+    gltf = Gltf()
+    gltf.header["extensionsRequired"] = ["KHR_mesh_quantization"]
+    positions = gltf.accessor(CUBE * 255, "u1", "VEC3", normalized=True)
+    indices = gltf.accessor(CUBE_FACES.reshape(-1), "u2", "SCALAR")
+    mesh = gltf.mesh({"attributes": {"POSITION": positions}, "indices": indices})
+    gltf.node("lamp", children=[gltf.node(None, mesh=mesh, scale=[-0.5, 0.5, 0.5])], root=True)
+    item = load_scene(gltf.write(tmp_path / "scene.glb")).objects[0]
+    a, b, c = (item.pose.to_world(item.geometry.mesh.vertices_m)[item.geometry.mesh.faces[:, k]] for k in range(3))
+    assert np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6 == pytest.approx(0.5**3)
+
+
 def test_the_lowest_signed_number_is_read_as_minus_one() -> None:
     assert unpacked(np.array([-128, -127, 0, 127], np.int8)).tolist() == [-1.0, -1.0, 0.0, 1.0]
 

@@ -88,7 +88,7 @@ def test_a_panda3d_material_has_its_name() -> None:
 
 def test_a_material_without_faces_is_no_material() -> None:
     mesh = Box((1.0, 1.0, 1.0)).mesh
-    rows = np.zeros(len(mesh.faces), np.int32)
-    assert names_by_area(mesh, rows, ["oak", "steel"]) == ("oak",)
-    rows[:4] = 1
-    assert names_by_area(mesh, rows, ["oak", "steel"]) == ("oak", "steel")
+    rows = np.ones(len(mesh.faces), np.int32)
+    assert names_by_area(mesh, rows, ["steel", "oak", "glass"]) == ("oak",)
+    rows[:4] = 0
+    assert names_by_area(mesh, rows, ["steel", "oak", "glass"]) == ("oak", "steel")
