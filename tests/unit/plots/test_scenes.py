@@ -253,6 +253,12 @@ def test_the_ceiling_of_a_room_in_one_piece_is_left_out() -> None:
     assert {f"crate {k}" for k in range(9)} < {view.scene.objects[k].id for k in np.unique(view.top)}
 
 
+def test_a_view_extends_by_equal_lengths_beyond_what_it_shows() -> None:
+    x0, x1, z0, z1 = TopView.of(SceneSnapshot.build([SceneObject("mat", geometry=Box((4.0, 0.1, 1.3)))]), 7).extent_m
+    assert (x0 + x1, z0 + z1) == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert z1 - z0 > 1.3
+
+
 def test_a_cover_that_hides_a_few_objects_is_drawn() -> None:
     crates = [
         SceneObject(f"crate {k}", pose=Pose((0.9 * k - 3.6, 0.2, -2.8)), geometry=Box((0.4, 0.4, 0.4)))

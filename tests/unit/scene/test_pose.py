@@ -66,6 +66,7 @@ def test_from_matrix_restores_the_pose(pose: Pose) -> None:
     # q and -q are one rotation. A pose keeps a quaternion whose length is within 1e-9 of 1, so divide by its length.
     cosine = abs(np.dot(again.rotation_xyzw, pose.rotation_xyzw)) / math.hypot(*pose.rotation_xyzw)
     assert cosine == pytest.approx(1.0, abs=1e-12)
+    assert again.rotation_xyzw[3] >= 0.0
 
 
 @pytest.mark.parametrize("axis", ["x", "y", "z"])
