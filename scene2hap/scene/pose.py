@@ -242,8 +242,8 @@ def _points(name: str, value: ArrayLike) -> NDArray[np.float64]:
 
 
 def _quaternion(r: NDArray[np.float64]) -> tuple[float, float, float, float]:
-    """Return the unit quaternion (x, y, z, w) of a rotation matrix. The largest component is computed first, to avoid
-    cancellation.
+    """Return the unit quaternion (x, y, z, w) of a rotation matrix, with w of at least 0. The largest component is
+    computed first, to avoid cancellation.
 
     Source: S. W. Shepperd, Quaternion from rotation matrix, J. Guidance and Control 1 (1978) 223.
     """

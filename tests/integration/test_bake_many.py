@@ -482,3 +482,11 @@ def test_the_command_line_shares_answers_of_scenes_only_on_request() -> None:
         bake_many_command.many_settings(parser.parse_args([*given, *more])) for more in (["--share-scenes"], [])
     )
     assert shared == {**alone, "share_scenes": True}
+
+
+def test_a_file_that_several_patterns_match_is_baked_once(tmp_path: Path) -> None:
+    one, other = tmp_path / "a.glb", tmp_path / "some" / "more" / "b.glb"
+    other.parent.mkdir(parents=True)
+    for path in (one, other):
+        path.touch()
+    assert bake_many_command.files([str(one), f"{tmp_path}/*.glb", f"{tmp_path}/**/*.glb"]) == [str(one), str(other)]

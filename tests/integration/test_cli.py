@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -116,6 +117,15 @@ def test_your_own_sounds_come_first(room: Path, tmp_path: Path) -> None:
     assert loops["microwave"]["on"]["frequency_raw_hz"] == pytest.approx(120, abs=0.05)
     assert loops["microwave"]["on"]["credit"]["author"] == "unknown"
     assert loops["refrigerator"]["on"]["credit"]["author"] == "scene2hap synthesizer"
+
+
+def test_only_a_bake_that_changes_something_keeps_the_bundle_before(tmp_path: Path) -> None:
+    table = SceneObject("table", pose=Pose((0.0, 0.37, 0.0)), geometry=Box((1.6, 0.74, 0.9)))
+    path, before = tmp_path / "room.json", tmp_path / "b.before"
+    for name, is_kept in (("table", False), ("table", False), ("glass table", True)):
+        path.write_text(SceneSnapshot.build([replace(table, name=name)]).to_json(), encoding="utf-8")
+        assert main(["bake", str(path), "-o", str(tmp_path / "b"), "-q"]) == 0
+        assert before.exists() == is_kept
 
 
 def test_model_and_converter_of_a_bake_may_have_settings(room: Path, tmp_path: Path) -> None:

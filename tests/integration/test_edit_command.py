@@ -287,6 +287,7 @@ def test_a_silent_object_can_be_made_to_vibrate(
     assert "intensity will change nothing until it does" in said
     assert "scene2hap edit BUNDLE vibrate oak table" in said
     assert main(["edit", folder, "vibrate", "oak table"]) == 0
+    assert "inference: " not in capsys.readouterr().out  # the lexicon has no account
     assert "oak table" in HapticBundle.load(folder).loops
 
 

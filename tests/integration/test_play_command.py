@@ -53,6 +53,11 @@ def test_keys_move_lift_and_turn() -> None:
         player.press("\x1b[A")
         player.press("\x1b[D")
     assert player._hand == (0, 0)  # it stays on the plan
+    for _ in range(200):
+        player.press("\x1b[B")
+        player.press("\x1b[C")
+    n_rows, n_columns = player.plan.top.shape
+    assert player._hand == (n_rows - 1, n_columns - 1)
     player.press("+")
     assert player.gain_db == 3.0
     player.press(" ")

@@ -119,7 +119,7 @@ def _content(message: Mapping[str, Any]) -> str:
     content, calls = message.get("content"), message.get("tool_calls")
     parts = content if isinstance(content, list) else ()
     text = text_of(content) or "".join(text_of(part.get("text")) for part in parts if isinstance(part, dict))
-    if text or message.get("refusal"):
+    if text:
         return text
     call = calls[0] if isinstance(calls, list) and calls else None
     function = call.get("function") if isinstance(call, dict) else message.get("function_call")

@@ -36,7 +36,7 @@ def link_of_robot(reading: NameReading, chain_names: Sequence[str], n_in_series:
     Parameters: chain_names : the names of all objects of its chain, empty without one; n_in_series : objects in its
     longest series, each held on the one before.
     """
-    if not _is_ambiguous(reading) or len(chain_names) < 2:
+    if not _is_ambiguous(reading):
         return None
     links = _links(tuple(chain_names), n_in_series)
     if links is None:

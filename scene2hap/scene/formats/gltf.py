@@ -74,11 +74,14 @@ class _Reader:
         name = _name(row)
         place = f"node {name!r}" if name else f"nodes[{number}]"
         pieces: tuple[Piece, ...] = ()
+        places = None
         if "mesh" in row:
             mesh = self._file.row("meshes", row["mesh"], place)
             pieces = self._mesh(row["mesh"], mesh, place)
             name = name or _name(mesh)
-            self._size.add_triangles(sum(len(piece.faces) for piece in pieces))
+            places = instances(self._file, row, place)
+            n_copies = 1 if places is None else len(places)
+            self._size.add_triangles(n_copies * sum(len(piece.faces) for piece in pieces))
         below = _numbers(row.get("children", []), f"{place}.children")
         rows = self._file.table("nodes")
         found = [(rows[child], node) for child in below for node in self.nodes(child, depth + 1)]
@@ -90,9 +93,8 @@ class _Reader:
             found = [each for each, is_one in zip(found, only_scale, strict=True) if not is_one]
             name = name or (scaled[0].name if len(scaled) == 1 else "")
         children = tuple(node for _, node in found)
-        if "mesh" in row and (places := instances(self._file, row, place)) is not None:
+        if places is not None:
             self._size.add_nodes(len(places))
-            self._size.add_triangles(sum(len(piece.faces) for piece in pieces) * len(places))
             # Blender calls the node of all copies "chairs.0", and its mesh "chair".
             copies = tuple(AuthoredNode(_name(mesh) or name, matrix @ each, pieces) for each in places)
             return (*copies, AuthoredNode(name, matrix, (), children)) if children else copies

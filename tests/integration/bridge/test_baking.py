@@ -8,6 +8,7 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from PIL import Image
@@ -17,7 +18,7 @@ from llm_server import GOOD, Asked, Scripted, said, serving as serving_model
 from scene2hap import HapticBundle
 from scene2hap.bridge import BridgeServer
 from scene2hap.bridge.frames import encode_picture
-from scene2hap.bridge.jobs import MAX_RUNNING
+from scene2hap.bridge.jobs import MAX_RUNNING, Jobs
 
 Bridge = Callable[..., BridgeServer]
 
@@ -71,8 +72,25 @@ def test_client_cannot_set_server_settings(bridge: Bridge, desk: HapticBundle) -
                 client.ask("bake", scene=scene, config={name: value})
         with pytest.raises(Refused, match="a file"):
             client.ask("bake", scene=scene, config={"actuator": "/etc/passwd.csv"})
+        with pytest.raises(Refused, match="a file"):
+            client.play(bundle="desk.bundle", session={"actuator": "/etc/passwd.csv"})
         with pytest.raises(Refused, match="one of scene and path"):
             client.ask("bake")
+
+
+def test_a_client_s_settings_outrank_the_server_s(
+    bridge: Bridge, desk: HapticBundle, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[dict[str, Any]] = []
+
+    def start(jobs: Jobs, wanted: dict[str, Any], *more: object) -> int:
+        started.append(wanted["config"])
+        return 1
+
+    monkeypatch.setattr(Jobs, "start", start)
+    with Client(bridge(bake={"actuator": "flat", "seed": 3}).url) as client:
+        client.ask("bake", scene=json.loads(desk.snapshot.to_json()), config={"actuator": "voice_coil"})
+    assert started == [{"actuator": "voice_coil", "seed": 3}]
 
 
 def test_failed_bake_is_reported(bridge: Bridge, desk: HapticBundle) -> None:

@@ -34,18 +34,19 @@ def test_ollama_falls_back_through_its_native_formats() -> None:
 
 @pytest.mark.parametrize("dialect", ["openai", "ollama"])
 def test_silently_dropped_images_warn(dialect: str) -> None:
-    few = ollama_said(prompt_eval_count=90) if dialect == "ollama" else said()
+    """Fewer than half of the tokens were read: the prompt and 8 pictures have at least 8 * 256."""
+    few = ollama_said(prompt_eval_count=1_000) if dialect == "ollama" else said()
     if dialect == "openai":
-        few.body["usage"]["prompt_tokens"] = 90
+        few.body["usage"]["prompt_tokens"] = 1_000
     with serving(few) as server:
         backend = (ollama if dialect == "ollama" else local)(server)
-        with pytest.warns(BackendWarning, match=r"read 90 tokens .* with 8 pictures"):
+        with pytest.warns(BackendWarning, match=r"read 1000 tokens .* with 8 pictures"):
             ask(backend, request(images=(PNG,) * 8))
         ask(backend, request(images=(PNG,) * 8))  # a second warning would be an error here
 
 
 def test_read_images_do_not_warn() -> None:
-    with serving(ollama_said(prompt_eval_count=8 * 256), ollama_said(prompt_eval_count=5)) as server:
+    with serving(ollama_said(prompt_eval_count=1_100), ollama_said(prompt_eval_count=5)) as server:
         ask(ollama(server), request(images=(PNG,) * 8))
         ask(ollama(server), request())
 

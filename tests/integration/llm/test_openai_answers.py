@@ -63,6 +63,13 @@ def test_content_of_services_that_only_resemble_openai_is_read(message: dict[str
         assert ask(openai(server)).text == _TEXT
 
 
+def test_a_tool_beside_a_refusal_is_no_answer() -> None:
+    message = {"content": None, "refusal": "no", "tool_calls": [{"id": "1", "type": "function", "function": _CALL}]}
+    script = Scripted({"choices": [{"index": 0, "finish_reason": "stop", "message": message}]})
+    with openai_serving(script) as server, pytest.raises(AnswerRefused, match="refused to answer: 'no'"):
+        ask(openai(server))
+
+
 @pytest.mark.parametrize("call", [None, 7, [], [None], [{"function": 7}], [{"function": {"arguments": 7}}]])
 def test_a_tool_without_arguments_is_no_content(call: object) -> None:
     body = {"choices": [{"index": 0, "message": {"content": None, "tool_calls": call}}]}

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scene2hap import AudioClip, Credit, HapticBundle, SceneSnapshot, VibrationDescription, bake, rebake
+from scene2hap import AudioClip, BakeConfig, Credit, HapticBundle, SceneSnapshot, VibrationDescription, bake, rebake
 from scene2hap.audio.actuators import ACTUATORS
 from scene2hap.audio.felt_loop import Plan
 from scene2hap.audio.levels import felt_level_db
@@ -17,7 +17,7 @@ from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.tactile.adaptive import Adaptive
 from scene2hap.audio.tactile.stages import StageStream
-from scene2hap.baking.fingerprint import made_by
+from scene2hap.baking.fingerprint import made_by, request_digests
 from scene2hap.errors import BundleError, ConfigError
 from scenes import box, scene, tone_loop
 
@@ -164,6 +164,13 @@ class Recordings:
         return [self.clip]
 
 
+def test_another_seed_is_another_request_for_a_sound() -> None:
+    asked = VibrationDescription("fan", "on", "fan humming", "fan humming", 0.5, (0.3, 0.3, 0.3), seed=1)
+    one, other = (request_digests(each, BakeConfig()) for each in (asked, replace(asked, seed=2)))
+    assert one["words"] != other["words"]
+    assert one["sources"] == other["sources"]
+
+
 def test_sound_sources_are_queried_only_when_given(bundle: HapticBundle) -> None:
     source = Recordings(own_tone(90.0))
     again, told = remade(bundle, {"audio": source})
@@ -187,6 +194,7 @@ def test_user_clip_keeps_its_pitch_and_others_are_moved_away(bundle: HapticBundl
     wished = bundle.override("desk_fan", clip=own_tone(101.0))
     again, told = remade(wished)
     assert felt(again)["desk_fan"] == pytest.approx(101.0, abs=0.2)
+    assert again.loops["desk_fan"]["on"].source is None  # the override has the clip
     assert abs(np.log2(felt(again)["microwave_oven"] / 101.0)) > 0.1
     assert told["microwave_oven"]
     kept = HapticBundle.load(wished.save(tmp_path / "b")).overrides

@@ -98,6 +98,8 @@ def test_user_clip_brings_and_removes_its_recorded_start(tmp_path: Path) -> None
     samples = own.loops["phone"][name].audible.samples
     peaks = [np.abs(part).max() for part in np.array_split(samples, 50)]
     assert min(peaks) > 0.6 * max(peaks)  # the loop does not contain the start
+    quick = rebake(bundle.override("phone", clip=take, start_up_s=0.5)).objects["phone"].states[0]
+    assert quick.start_up_s == 0.5  # a person's time outranks the recording's
     folder = own.save(tmp_path / "own")
     loaded = HapticBundle.load(folder)
     assert loaded.loops["phone"][name].start_up == curve

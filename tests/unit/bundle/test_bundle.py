@@ -212,6 +212,17 @@ def test_credits_are_written_once_each(tmp_path: Path) -> None:
     assert text.count("Buzz, by Ann, CC-BY-4.0, https://example.org/buzz") == 1
 
 
+def test_a_credit_in_broken_unicode_is_written(tmp_path: Path) -> None:
+    """JSON of a service may hold half of a surrogate pair."""
+    _, bundle = table_with_two_phones()
+    loop = bundle.loops["alarm"]["ringing"]
+    owed = Credit("Buzz", "Ann \ud83d", "CC-BY-4.0")
+    credited = replace(loop, audible=replace(loop.audible, credit=owed))
+    folder = replace(bundle, loops={**bundle.loops, "alarm": {"ringing": credited}}).save(tmp_path / "b")
+    assert "Buzz, by Ann ?, CC-BY-4.0" in (folder / "credits.txt").read_text(encoding="utf-8")
+    assert HapticBundle.load(folder).loops["alarm"]["ringing"].audible.credit == owed
+
+
 def test_sensation_of_a_loop_round_trips(tmp_path: Path) -> None:
     _, bundle = table_with_two_phones()
     felt = Sensation(14.0, 20.0, 98.0, 80.0)

@@ -355,9 +355,11 @@ def test_failed_second_rename_restores_the_old_bundle(tmp_path: Path, monkeypatc
     assert [path.name for path in tmp_path.iterdir()] == ["room"]
 
 
+@pytest.mark.parametrize("is_torn", [False, True])
 def test_a_bundle_that_is_replaced_while_it_is_read_is_read_again(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, is_torn: bool
 ) -> None:
+    """What was read by then may be of both bundles, and fit together or not."""
     folder = a_bundle().save(tmp_path / "room")
     other = a_bundle().override("phone", gain_db=-7.0)
     from scene2hap.bundle import folder as reading
@@ -368,6 +370,8 @@ def test_a_bundle_that_is_replaced_while_it_is_read_is_read_again(
         times.append(place)
         if len(times) == 1:
             other.save(folder)
+            if is_torn:
+                raise BundleError("the manifest names a file of the bundle before")
         return read(place)
 
     monkeypatch.setattr(reading, "_read_scene", and_replace)

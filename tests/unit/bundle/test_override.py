@@ -22,6 +22,7 @@ def test_silencing_override_removes_the_loops(bundle: HapticBundle) -> None:
     quiet = bundle.override(source, vibrates=False)
     assert list(quiet.loops) == [other]
     assert not quiet.objects[source].vibrates
+    assert quiet.objects[source].states == ()
     assert quiet.objects[source].provenance["vibrates"] == "user"
     assert bundle.objects[source].vibrates
 

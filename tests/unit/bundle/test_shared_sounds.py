@@ -166,8 +166,8 @@ def test_ids_that_differ_in_case_have_files_of_their_own_on_any_system(tmp_path:
 
 
 def test_only_ids_that_need_it_get_a_digest() -> None:
-    stems = file_stems(["Fan", "fan", "lamp", "Lamp 2"])
-    assert stems["lamp"] == "lamp"
+    stems = file_stems(["Fan", "fan", "lamp", "Lamp 2", "Radio"])
+    assert (stems["lamp"], stems["Radio"]) == ("lamp", "Radio")
     assert [stem for stem in stems.values() if re.fullmatch("[Ff]an-[0-9a-f]{8}", stem)] == [stems["Fan"], stems["fan"]]
 
 

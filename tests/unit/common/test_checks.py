@@ -62,6 +62,13 @@ def test_items_of_one_type(given: object) -> None:
         checks.instances("sizes", given, float, "a list of float", error=SceneError)
 
 
+def test_items_are_at_most_a_number() -> None:
+    assert checks.items("sizes", (1, 2, 3), at_most=3, error=SceneError) == (1, 2, 3)
+    for given in ((1, 2, 3, 4), iter([1, 2, 3, 4])):
+        with pytest.raises(SceneError, match="sizes.* 3"):
+            checks.items("sizes", given, at_most=3, error=SceneError)
+
+
 def test_one_item_without_its_list_is_an_error() -> None:
     with pytest.raises(SceneError, match=r"sizes is or has 1\.5; it must be a list of float"):
         checks.instances("sizes", 1.5, float, "a list of float", error=SceneError)

@@ -65,6 +65,23 @@ def test_only_a_status_of_success_is_ok() -> None:
     assert [status for status in (199, 200, 204, 299, 300) if WebReply("", status, b"").ok] == [200, 204, 299]
 
 
+def redirecting(target: str) -> httpx.MockTransport:
+    def answer(request: httpx.Request) -> httpx.Response:
+        is_there = request.url == httpx.URL(target)
+        return httpx.Response(200, content=b"there") if is_there else httpx.Response(302, headers={"location": target})
+
+    return httpx.MockTransport(answer)
+
+
+def test_redirects_are_followed_to_safe_addresses_and_never_with_a_key() -> None:
+    safe, unsafe = "https://b.example/x", "http://b.example/x"
+    assert web.get("https://a.example/", LIMITS, transport=redirecting(safe)).content == b"there"
+    with pytest.raises(BackendUnavailable, match="http://b.example, which is not safe"):
+        web.get("https://a.example/", LIMITS, transport=redirecting(unsafe))
+    kept = web.get("https://a.example/", LIMITS, authorization=lambda: KEY, transport=redirecting(safe))
+    assert kept.status == 302
+
+
 def test_a_gzip_bomb_is_refused_before_it_unpacks() -> None:
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     body = bomb()
@@ -84,6 +101,21 @@ def test_an_endless_body_is_ended() -> None:
     with pytest.raises(BackendUnavailable, match="more than"):
         posted(httpx.Response(200, stream=stream))
     assert stream.n_sent <= http_client.MAX_REPLY_BYTES + 65536
+
+
+def test_a_body_of_the_most_bytes_is_taken() -> None:
+    body = bytes(LIMITS.max_bytes)
+    assert asked(httpx.Response(200, stream=httpx.ByteStream(body))).content == body
+    with pytest.raises(BackendUnavailable, match=f"more than {len(body)} bytes"):
+        asked(httpx.Response(200, stream=httpx.ByteStream(body + b"0")))
+
+
+def test_an_endless_body_that_unpacks_to_little_is_ended() -> None:
+    """What follows a packed document is not unpacked."""
+    stream = Endless(gzip.compress(b"{}") + bytes(65536))
+    with pytest.raises(BackendUnavailable, match="more than"):
+        asked(httpx.Response(200, headers={"content-encoding": "gzip"}, stream=stream))
+    assert stream.n_sent <= LIMITS.max_bytes + len(stream.chunk)
 
 
 def test_a_body_that_drips_for_ever_is_ended() -> None:

@@ -239,9 +239,11 @@ def test_no_constants_are_requested_for_a_material_that_is_unknown_in_other_word
 
 
 def test_a_sentence_a_few_words_too_long_is_used() -> None:
-    sentence = "phone " + "buzzes " * 17
+    sentence = "phone" + " buzzes" * 19
     found = run(Scripted(vibration_describer=lambda request, answer: {**answer, "sentence": sentence}))
     assert found.objects["phone"].states[0].sentence == sentence
+    found = run(Scripted(vibration_describer=lambda request, answer: {**answer, "sentence": f"{sentence} on"}))
+    assert "21 words; at most 20 are allowed" in found.report.errors["phone, state ringing"]
 
 
 def test_a_recorded_run_with_an_unusable_answer_can_be_replayed(tmp_path: Path) -> None:

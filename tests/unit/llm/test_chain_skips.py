@@ -37,6 +37,17 @@ def test_lazy_inference_covers_only_objects_reached_by_sources() -> None:
     assert found.report.skipped["unreached_material"] == 1
 
 
+def test_lazy_inference_takes_unreached_materials_from_the_table() -> None:
+    def word(subject: str) -> str:
+        return "oak" if subject == "cup" else f"{subject} stuff"
+
+    backend = Scripted(object_analyzer=lambda request, answer: {**answer, "material_category": word(request.subject)})
+    found = infer_haptics(SCENE, backend, config={"inference": "lazy"})
+    asked = {request.subject for request in backend.asked if request.component == "material_estimator"}
+    assert asked == {"phone stuff", "table stuff"}
+    assert found["cup"].material == replace(materials.lookup("oak"), name="oak")
+
+
 def test_copies_on_the_same_support_are_analysed_once() -> None:
     def copy(name: str, x: float, y: float) -> SceneObject:
         return replace(box(name, (0.1, 0.1, 0.1), (x, y, 0.4)), instance_key="mug")

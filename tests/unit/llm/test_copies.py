@@ -79,7 +79,9 @@ def test_only_exact_copies_share_calls() -> None:
     backend = Scripted(
         object_analyzer=lambda request, answer: {**answer, "material_category": f"stuff of {request.subject}"}
     )
-    found = asyncio.run(infer_scene(cubes(), backend))
+    done: list[int] = []
+    found = asyncio.run(infer_scene(cubes(), backend, progress=lambda what, n_done, total: done.append(n_done)))
+    assert done == list(range(N_COPIES, 60 + 1, N_COPIES))
     analysed = [request.subject for request in backend.asked if request.component == "object_analyzer"]
     assert Counter(map(word, analysed)) == Counter((*SOURCES, *SILENT))
     assert found.report.skipped["copies"] == 30
@@ -95,6 +97,11 @@ def test_user_prompt_for_one_copy_is_not_shared() -> None:
     analysed = {r.subject: r.prompt for r in backend.asked if r.component == "object_analyzer"}
     assert set(analysed) == {"chair_1", "chair_3"}
     assert "it is of steel" in analysed["chair_3"]
+    backend = Scripted()
+    asyncio.run(infer_scene(room, backend, wishes={"chair_3": "it is of steel", "chair_4": "it is of oak"}))
+    prompts = {r.subject: r.prompt for r in backend.asked if r.component == "object_analyzer"}
+    assert set(prompts) == {"chair_1", "chair_3", "chair_4"}
+    assert "it is of oak" in prompts["chair_4"]
 
 
 def test_copies_share_isolated_pictures_but_not_context_pictures() -> None:

@@ -6,11 +6,13 @@ from dataclasses import replace
 
 import pytest
 
+from llm_server import PNG, request
 from scene2hap import LexiconBackend, load_scene
 from scene2hap.demo import kitchen_path
 from scene2hap.llm.backends.image_tokens import image_tokens
 from scene2hap.llm.chain import infer_scene
-from scene2hap.llm.dry_run import dry_run
+from scene2hap.llm.dry_run import dry_run, estimated_cost_usd
+from scene2hap.llm.wrappers.prices import price_list
 from scene2hap.scene.images import ImageSet, ObjectImages, Shot
 from scripted_backend import SCENE
 
@@ -60,6 +62,14 @@ def test_dry_run_counts_pictures_without_rendering() -> None:
     assert told.image_tokens == 85 * told.images
     read = told.text_tokens + 85 * told.images
     assert told.cost_usd == pytest.approx((3.0 * read + 7.0 * told.answer_tokens) / 1e6)
+
+
+def test_each_picture_of_a_request_costs() -> None:
+    prices = price_list({"gpt-4o": (3.0, 7.0)})
+    one, three = (estimated_cost_usd(request(images=(PNG,) * n), "gpt-4o", "low", prices) for n in (1, 3))
+    assert one is not None
+    assert three is not None
+    assert three - one == pytest.approx(2 * 85 * 3.0 / 1e6)
 
 
 def test_cost_is_tokens_times_price() -> None:

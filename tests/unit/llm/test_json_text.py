@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from scene2hap.llm.json_text import answer_object, first_object
+from scene2hap.llm.json_text import answer_object, fields_of, first_object
 
 _JSON = st.recursive(
     st.none() | st.booleans() | st.integers() | st.text(),
@@ -73,3 +73,11 @@ def test_object_in_a_wrapper_is_found_as_written(wrapped: str) -> None:
 @pytest.mark.parametrize("text", ['{"answer": "no"}', '{"a": {"b": 1}, "c": 2}', '{"a": [{}]}', "{}"])
 def test_object_with_other_contents_is_not_unwrapped(text: str) -> None:
     assert answer_object(text) == text
+
+
+@pytest.mark.parametrize("n_digits", [20, 400, 5000])
+def test_whole_numbers_of_any_length_are_read_as_floats(n_digits: int) -> None:
+    digits = "1" + "0" * (n_digits - 1)
+    found = fields_of(f'{{"mass_kg": {digits}}}')
+    assert found == {"mass_kg": float(digits)}
+    assert isinstance(found["mass_kg"], float)

@@ -13,6 +13,7 @@ from scene2hap.llm.chain import infer_scene
 from scene2hap.llm.plausibility import constants, row_of
 from scene2hap.llm.validation import find_fault
 from scene2hap.materials import table
+from scene2hap.scene.surface.plate_sizes import THINNEST_M, assumed_thickness_m, with_thickness
 from scripted_backend import SCENE, Scripted, run
 
 STEEL = {"density_kg_m3": 7850.0, "youngs_modulus_gpa": 200.0, "poisson_ratio": 0.3, "damping_ratio": 0.0005}
@@ -47,6 +48,17 @@ def test_every_row_of_the_table_is_plausible() -> None:
         assert constants(constant.name, told) == {}, constant.name
 
 
+def test_an_invalid_number_is_named_once_and_what_is_no_number_is_no_doubt() -> None:
+    assert told_of(steel(density_kg_m3=1e9)).count("density_kg_m3") == 1
+    assert constants("steel", {"density_kg_m3": "heavy", "poisson_ratio": None, "damping_ratio": True}) == {}
+
+
+def test_a_measured_thickness_below_that_of_a_foil_is_none() -> None:
+    assert with_thickness((1.0, 0.5, THINNEST_M)) == (1.0, 0.5, THINNEST_M)
+    for thinner_m in (0.0, THINNEST_M / 2):
+        assert with_thickness((1.0, 0.5, thinner_m)) == (1.0, 0.5, assumed_thickness_m((1.0, 0.5, 0.0)))
+
+
 def test_error_for_density_in_grams_states_bounds_and_unit() -> None:
     assert "density_kg_m3: 7.85 kg/m3, but steel has 2610 to 23600 kg/m3 (g/cm3? Give kg/m3)" in told_of(
         steel(density_kg_m3=7.85)
@@ -66,6 +78,12 @@ def test_error_lists_all_implausible_constants() -> None:
 def test_material_is_recognised_within_a_longer_phrase(word: str) -> None:
     assert row_of(word) is not None
     assert "density_kg_m3" in told_of(steel(density_kg_m3=7.85), word)
+
+
+def test_the_last_of_several_materials_counts() -> None:
+    """In English it is the noun: a steel rubber is a rubber."""
+    found = row_of("steel rubber"), row_of("rubber steel")
+    assert [row.material.name for row in found if row is not None] == ["rubber", "steel"]
 
 
 def test_unknown_material_is_checked_against_bounds_of_any_solid() -> None:

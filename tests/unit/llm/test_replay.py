@@ -209,6 +209,14 @@ def test_replay_for_another_model_misses(tmp_path: Path) -> None:
         ask(ReplayBackend(path, model="gpt-4o"))
 
 
+def test_replay_finds_a_model_by_the_name_that_was_asked_for(tmp_path: Path) -> None:
+    """Services answer with dated names."""
+    path = record(tmp_path / "answers.jsonl")
+    row = json.loads(path.read_text(encoding="utf-8"))
+    path.write_text(json.dumps({**row, "model": "echo-2026-01-31", "asked_model": "echo"}) + "\n", encoding="utf-8")
+    assert ask(ReplayBackend(path, model="echo")).model == "echo-2026-01-31"
+
+
 def test_miss_names_another_prompt_version(tmp_path: Path) -> None:
     replay = ReplayBackend(record(tmp_path / "answers.jsonl"))
     with pytest.raises(ReplayMiss, match=r"prompt_version \('1' recorded, '2' requested\)"):

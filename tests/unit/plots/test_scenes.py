@@ -253,6 +253,24 @@ def test_the_ceiling_of_a_room_in_one_piece_is_left_out() -> None:
     assert {f"crate {k}" for k in range(9)} < {view.scene.objects[k].id for k in np.unique(view.top)}
 
 
+def test_a_view_extends_by_equal_lengths_beyond_what_it_shows() -> None:
+    x0, x1, z0, z1 = TopView.of(SceneSnapshot.build([SceneObject("mat", geometry=Box((4.0, 0.1, 1.3)))]), 7).extent_m
+    assert (x0 + x1, z0 + z1) == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert z1 - z0 > 1.3
+
+
+def test_a_cover_that_hides_a_few_objects_is_drawn() -> None:
+    crates = [
+        SceneObject(f"crate {k}", pose=Pose((0.9 * k - 3.6, 0.2, -2.8)), geometry=Box((0.4, 0.4, 0.4)))
+        for k in range(9)
+    ]
+    below = [SceneObject(f"pool {k}", pose=Pose((k, 0.1, 0)), geometry=Box((0.9, 0.2, 0.9))) for k in range(3)]
+    awning = SceneObject("awning", pose=Pose((0, 2.5, 0.3)), geometry=Box((7.6, 0.05, 5.0)))
+    view = TopView.of(SceneSnapshot.build([*crates, *below, awning]), 60)
+    assert not view.is_uncovered
+    assert "pool 1" not in {view.scene.objects[k].id for k in np.unique(view.top) if k != NOTHING}
+
+
 def test_terrain_and_table_tops_are_no_ceilings() -> None:
     hill = SceneObject("terrain", pose=Pose((0, -2.5, 0)), geometry=Box((8.0, 5.0, 8.0)))
     assert not TopView.of(furnished(hill), 60).is_uncovered

@@ -177,6 +177,16 @@ def test_path_runs_over_touching_objects() -> None:
     }
 
 
+def test_a_source_of_unknown_material_is_felt_on_itself() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        bundle = bake(_table())
+        phone = replace(bundle.objects["phone"], material=None)
+        felt = felt_map(replace(bundle, objects={**bundle.objects, "phone": phone}), [MODEL], most_points=100)
+    owners = [patch.object_id for patch in felt.patches for _ in patch.points_m]
+    assert {_path(felt, "phone", k) for k, owner in enumerate(owners) if owner == "phone"} == {("phone",)}
+
+
 def test_resonant_models_have_no_single_path() -> None:
     felt = felt_map(bake(_table()), ["modal_plate"], most_points=40)
     assert felt.models == ("modal_plate",)

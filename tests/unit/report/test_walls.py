@@ -64,6 +64,11 @@ def test_cupboards_along_a_side_are_no_wall() -> None:
     assert walls(room({**FLOOR, **cupboards})) == {}
 
 
+def test_a_drainpipe_outside_is_no_wall() -> None:
+    pipe: Things = {"pipe": ((1.0, HEIGHT / 2, -2.05), (0.1, HEIGHT, 0.08))}
+    assert set(walls(room({**FLOOR, **WALLS, **pipe}))) == set(WALLS)
+
+
 def test_wall_pieces_are_joined() -> None:
     pieces: Things = {f"wall_{i}": ((-1.5 + i, HEIGHT / 2, -1.95), (1.0, HEIGHT, THICK)) for i in range(4)}
     assert set(walls(room({**FLOOR, **pieces, **FURNITURE}))) == set(pieces)
@@ -72,7 +77,7 @@ def test_wall_pieces_are_joined() -> None:
 
 
 def test_a_ceiling_is_as_wide_as_the_scene() -> None:
-    """It may consist of panels. A table top in a scene of a single table is not a ceiling."""
+    """It may consist of panels. The top of a single table is none, in one piece or of boards."""
     ceiling = {**FLOOR, **CEILING, **FURNITURE}
     assert "ceiling" in shells(room(ceiling))  # as wide and as deep as the scene
     panels: Things = {f"panel_{i}": ((-1.5 + i, HEIGHT + 0.02, 0.0), (1.0, 0.04, SIDE)) for i in range(4)}
@@ -81,6 +86,8 @@ def test_a_ceiling_is_as_wide_as_the_scene() -> None:
     assert {found[name] for name in panels} == {OUT["ceiling"]}
     table: Things = {"top": ((0.0, 0.78, 0.0), (1.2, 0.04, 0.8)), "leg": ((0.0, 0.38, 0.0), (0.1, 0.76, 0.1))}
     assert walls(room(table)) == {}
+    boards: Things = {f"board_{i}": ((-0.45 + 0.3 * i, 0.78, 0.0), (0.3, 0.04, 0.8)) for i in range(4)}
+    assert walls(room({**boards, "leg": table["leg"]})) == {}
 
 
 def test_a_source_is_no_wall_and_a_scene_without_walls_has_none() -> None:

@@ -2,6 +2,7 @@
 
 import math
 import tracemalloc
+import warnings
 from contextlib import nullcontext
 from dataclasses import replace
 
@@ -61,6 +62,28 @@ def test_copies_share_a_key_and_an_analysis() -> None:
     assert scene.object("stool").instance_key != SceneSnapshot.build(ROOM).object("mug").instance_key
     shared = copies(scene, ContactGraph(scene), {})
     assert [shared[item.id] for item in scene.objects] == [*["chair 0"] * 4, "stool", "bench"]
+
+
+def test_copies_stand_on_the_same_kind_or_touch_the_same_kinds() -> None:
+    """What stands on an object makes no difference."""
+    room = [
+        SceneObject("floor", pose=Pose((0, -0.05, 0)), geometry=Box((6.0, 0.1, 4.0))),
+        SceneObject("ceiling", pose=Pose((0, 2.55, 0)), geometry=Box((6.0, 0.1, 4.0))),
+        SceneObject("wall", pose=Pose((0, 1.25, -2.05)), geometry=Box((6.0, 2.5, 0.1))),
+    ]
+    table, pan, lamp = Box((0.8, 0.7, 0.8)), Box((0.3, 0.1, 0.3)), Box((0.2, 0.2, 0.2))
+    things = {
+        "table 0": (table, (-2.0, 0.35, 0.0)),
+        "table 1": (table, (0.0, 0.35, 0.0)),
+        "pan 0": (pan, (-2.0, 0.75, 0.0)),
+        "pan 1": (pan, (1.0, 0.05, 0.0)),
+        "lamp 0": (lamp, (0.0, 2.4, 0.0)),
+        "lamp 1": (lamp, (0.0, 1.5, -1.9)),
+    }
+    items = [SceneObject(name, pose=Pose(at), geometry=geometry) for name, (geometry, at) in things.items()]
+    scene = SceneSnapshot.build([*room, *items])
+    shared = copies(scene, ContactGraph(scene), {})
+    assert [shared[name] for name in things] == ["table 0", "table 0", "pan 0", "pan 1", "lamp 0", "lamp 1"]
 
 
 def test_equal_links_of_different_robots_are_no_copies() -> None:
@@ -131,6 +154,7 @@ def test_check_finds_nothing_in_a_valid_room() -> None:
         ("floating", ("mug",), [*ROOM[:3], moved(ROOM[3], pose=Pose((-0.3, 1.9, 0.1))), ROOM[4]], "y"),
         ("sunk", ("crate",), [*ROOM[:4], moved(ROOM[4], pose=Pose((1.2, -0.5, 1.0)))], "y"),
         ("up-axis", tuple(item.id for item in ROOM), ROOM, "z"),
+        ("mass", ("mug",), [*ROOM[:3], moved(ROOM[3], mass_kg=20.0), ROOM[4]], "y"),  # 31 kg/l in its box
         (
             "quaternions",
             tuple(item.id for item in ROOM),
@@ -139,6 +163,15 @@ def test_check_finds_nothing_in_a_valid_room() -> None:
                 for k, item in enumerate(ROOM)
             ],
             "y",
+        ),
+        (
+            "quaternions",
+            tuple(item.id for item in ROOM),
+            [
+                moved(item, pose=Pose(item.pose.position_m, (math.cos(0.1 * k), 0.0, 0.0, math.sin(0.1 * k))))
+                for k, item in enumerate(ROOM)
+            ],
+            "z",
         ),
         (
             "units",
@@ -218,6 +251,13 @@ def gallery(*more: str) -> list[SceneObject]:
             for k, name in enumerate(names)
         ),
     ]
+
+
+def test_three_objects_beside_each_other_do_not_tip_the_up_axis() -> None:
+    books = [
+        SceneObject(f"book {k}", pose=Pose((0, 0.1 * k, 0.1 * k)), geometry=Box((0.2, 0.2, 0.1))) for k in range(3)
+    ]
+    assert SceneSnapshot.build(books).check() == ()
 
 
 @pytest.mark.parametrize("more", [(), ("mirror", "shelf")])
@@ -310,6 +350,23 @@ def test_an_object_that_floats_inside_another_is_found() -> None:
     assert not list(ContactGraph(scene).neighbours("milk"))
 
 
+def test_nothing_floats_inside_another_object_in_a_wrong_unit() -> None:
+    """The bottom of the refrigerator is 50 mm below the milk, and read as 50 m."""
+    near = [
+        moved(
+            item,
+            pose=Pose(tuple(1000 * x for x in item.pose.position_m)),
+            geometry=Box(tuple(1000 * x for x in item.geometry.size_m)),
+            surface=None,
+        )
+        for item in (*ROOM, FRIDGE, milk_at(1.0, 0.15))
+    ]
+    with pytest.warns(UnitWarning):
+        found = SceneSnapshot.build(near).check()
+    assert found[0].kind == "units"
+    assert not any("inside another object" in str(one) for one in found)
+
+
 @pytest.mark.parametrize(
     ("others", "why"),
     [
@@ -341,6 +398,15 @@ def test_bake_warns_of_floating_objects_and_scenes_without_sources() -> None:
     parts = [moved(item, name=item.id) for item in parts]
     with pytest.warns(SceneWarning, match="one model of many parts, load it with group=0"):
         bake(SceneSnapshot.build(parts))
+
+
+def test_bake_leaves_warnings_of_units_to_load_scene() -> None:
+    with pytest.warns(UnitWarning):
+        scene = SceneSnapshot.build([SceneObject("table", geometry=Box((1200.0, 720.0, 700.0)))])
+    assert [found.kind for found in scene.check()] == ["units"]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", SceneWarning)
+        bake(scene)
 
 
 def test_check_does_not_depend_on_batch_size(monkeypatch: pytest.MonkeyPatch) -> None:

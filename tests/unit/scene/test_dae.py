@@ -11,6 +11,7 @@ import pytest
 
 from looks import BLUE, UPRIGHT, image_file, looks, refused, shown
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
+from scene2hap.scene import limits
 from scene2hap.scene.load import load_scene
 
 needs_pycollada = pytest.mark.skipif(find_spec("collada") is None, reason="pycollada is not installed")
@@ -63,6 +64,20 @@ def test_invalid_unit_is_refused(tmp_path: Path, unit: str) -> None:
     with pytest.raises(SceneFormatError, match=f"has {unit} metres per unit; it must be above 0"):
         load_scene(path)
     np.testing.assert_allclose(load_scene(path, unit_m=1.0).objects[0].bounds_m[1], [1.0, 2.0, 0.0], atol=1e-9)
+
+
+@needs_pycollada
+@pytest.mark.parametrize(
+    ("limit", "value", "what"),
+    [("MAX_DEPTH", 2, "depth of the node tree is 3"), ("MAX_NODES", 3, "number of nodes is 4")],
+)
+def test_nodes_are_limited(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, limit: str, value: int, what: str) -> None:
+    below = f'<node id="b" name="b">{FLAT}<node id="c" name="c">{FLAT}</node></node>'
+    path = write(tmp_path, dae(f'<node id="a" name="a">{FLAT}{below}</node><node id="d" name="d">{FLAT}</node>'))
+    load_scene(path)
+    monkeypatch.setattr(limits, limit, value)
+    with pytest.raises(SceneError, match=f"{what}; .*{limit}"):
+        load_scene(path)
 
 
 @needs_pycollada

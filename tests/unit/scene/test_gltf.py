@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import struct
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,9 @@ import pytest
 
 from gltf_builder import CUBE, CUBE_FACES, Gltf, one_cube
 from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene import limits
 from scene2hap.scene.formats.gltf import read_gltf
+from scene2hap.scene.formats.gltf_accessors import unpacked
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.shapes import TriMesh
@@ -64,6 +67,14 @@ def test_a_file_name_in_the_header_may_be_quoted(tmp_path: Path) -> None:
     assert len(load_scene(path).objects) == 1
 
 
+def test_of_several_binary_chunks_the_first_is_read(tmp_path: Path) -> None:
+    data = one_cube().glb()
+    data += struct.pack("<I", 64) + b"BIN\0" + bytes(64)
+    path = tmp_path / "cube.glb"
+    path.write_bytes(data[:8] + struct.pack("<I", len(data)) + data[12:])
+    np.testing.assert_array_equal(load_scene(path).objects[0].bounds_m, [[0, 0, 0], [1, 1, 1]])
+
+
 def test_interleaved_vertices_are_read_by_stride(tmp_path: Path) -> None:
     gltf = Gltf()
     interleaved = np.hstack((CUBE, np.full((8, 3), 77.0)))
@@ -83,6 +94,22 @@ def test_quantised_positions_are_scaled_to_one(tmp_path: Path, dtype: str, large
     indices = gltf.accessor(CUBE_FACES.reshape(-1), "u2", "SCALAR")
     gltf.node("cube", mesh=gltf.mesh({"attributes": {"POSITION": positions}, "indices": indices}), root=True)
     np.testing.assert_array_equal(read(gltf, tmp_path).pieces[0].vertices, CUBE)
+
+
+def test_a_quantised_mesh_that_is_mirrored_faces_outwards(tmp_path: Path) -> None:
+    gltf = Gltf()
+    gltf.header["extensionsRequired"] = ["KHR_mesh_quantization"]
+    positions = gltf.accessor(CUBE * 255, "u1", "VEC3", normalized=True)
+    indices = gltf.accessor(CUBE_FACES.reshape(-1), "u2", "SCALAR")
+    mesh = gltf.mesh({"attributes": {"POSITION": positions}, "indices": indices})
+    gltf.node("lamp", children=[gltf.node(None, mesh=mesh, scale=[-0.5, 0.5, 0.5])], root=True)
+    item = load_scene(gltf.write(tmp_path / "scene.glb")).objects[0]
+    a, b, c = (item.pose.to_world(item.geometry.mesh.vertices_m)[item.geometry.mesh.faces[:, k]] for k in range(3))
+    assert np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6 == pytest.approx(0.5**3)
+
+
+def test_the_lowest_signed_number_is_read_as_minus_one() -> None:
+    assert unpacked(np.array([-128, -127, 0, 127], np.int8)).tolist() == [-1.0, -1.0, 0.0, 1.0]
 
 
 def test_integer_positions_without_normalisation_are_kept(tmp_path: Path) -> None:
@@ -168,6 +195,15 @@ def test_transforms_chain_from_the_root_down(tmp_path: Path) -> None:
     gltf.node("turned", children=[leaf], rotation=[0.0, 1.0, 0.0, 0.0], root=True)
     item = load_scene(gltf.write(tmp_path / "scene.glb")).objects[0]
     np.testing.assert_allclose(item.bounds_m, [[-4.0, 0.0, -2.0], [-2.0, 2.0, 0.0]], atol=1e-12)
+
+
+def test_a_node_is_scaled_before_it_is_turned(tmp_path: Path) -> None:
+    """A quarter turn about z takes x to y, and y to -x."""
+    half = float(np.sqrt(0.5))
+    item = load_scene(
+        one_cube(rotation=[0.0, 0.0, half, half], scale=[2.0, 3.0, 4.0]).write(tmp_path / "s.glb")
+    ).objects[0]
+    np.testing.assert_allclose(item.bounds_m, [[-3.0, 0.0, 0.0], [0.0, 2.0, 4.0]], atol=1e-12)
 
 
 def test_node_matrix_is_column_major(tmp_path: Path) -> None:
@@ -264,7 +300,7 @@ def test_only_the_default_scene_is_read(tmp_path: Path) -> None:
 
 def test_every_root_node_is_read_when_no_scene_is_defined(tmp_path: Path) -> None:
     gltf = one_cube("a")
-    gltf.node("b", mesh=0)
+    gltf.node("b", children=[gltf.node("leg", mesh=0)])
     del gltf.header["scenes"], gltf.header["scene"]
     assert [item.id for item in load_scene(gltf.write(tmp_path / "scene.glb")).objects] == ["a", "b"]
 
@@ -342,6 +378,16 @@ def test_each_copy_of_an_instanced_mesh_is_an_object(tmp_path: Path) -> None:
     assert (first.id, second.id) == ("chair", "chair#2")
     np.testing.assert_allclose(first.bounds_m, [(10, 0, 0), (11, 1, 1)], atol=1e-6)
     np.testing.assert_allclose(second.bounds_m, [(15, 0, -1), (17, 1, 0)], atol=1e-6)
+
+
+def test_triangles_of_all_copies_count(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = instanced(TRANSLATION=[[3 * k, 0, 0] for k in range(4)]).write(tmp_path / "chairs.glb")
+    n = 4 * len(CUBE_FACES)
+    monkeypatch.setattr(limits, "MAX_TRIANGLES", n - 1)
+    with pytest.raises(SceneError, match=f"number of triangles is {n};"):
+        load_scene(path)
+    monkeypatch.setattr(limits, "MAX_TRIANGLES", n)
+    assert len(load_scene(path).objects) == 4
 
 
 def test_legs_that_are_instances_are_parts_of_their_rack(tmp_path: Path) -> None:

@@ -58,6 +58,14 @@ def test_pieces_of_other_materials_that_meet_are_one_part() -> None:
     assert [len(part) for part in parts(cubes(0.0), cubes(1.0, 5.0, key="other"))] == [2, 1]
 
 
+def test_parts_are_in_the_order_of_their_faces() -> None:
+    whole = cubes(0.0, 5.0, 9.0)
+    found = parts(replace(whole, faces=np.roll(whole.faces, N, axis=0)))
+    assert [float(part[0].vertices[:, 0].min()) for part in found] == pytest.approx(
+        [x + CUBE[:, 0].min() for x in (9, 0, 5)]
+    )
+
+
 def test_corners_that_differ_by_the_rounding_of_float32_are_one_place() -> None:
     apart = cubes(0.0, 7.0, by_corner=True)
     off = np.random.default_rng(1).uniform(-2e-7, 2e-7, apart.vertices.shape)
@@ -67,6 +75,12 @@ def test_corners_that_differ_by_the_rounding_of_float32_are_one_place() -> None:
 def test_a_connected_mesh_stays_as_it_is() -> None:
     piece = cubes(0.0)
     assert parts(piece) == [(piece,)]
+
+
+@pytest.mark.parametrize(("at", "mass_kg"), [((0.0,), 5.0), ((0.0, 7.0), None)])
+def test_only_a_mesh_of_one_part_keeps_its_mass(at: tuple[float, ...], mass_kg: float | None) -> None:
+    node = AuthoredNode("Bathroom", np.eye(4), (cubes(*at),), mass_kg=5.0)
+    assert {item.mass_kg for item in group_objects([node], "loose")} == {mass_kg}
 
 
 def test_more_parts_than_a_scene_may_have_objects_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from scene2hap import SceneSnapshot, load_scene
-from scene2hap.scene.copies import material_names
+from scene2hap import Box, SceneSnapshot, load_scene
+from scene2hap.scene.copies import material_names, names_by_area
 from usd_writing import HEADER, usd
 
 WEDGE = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
@@ -83,3 +84,11 @@ def test_a_panda3d_material_has_its_name() -> None:
     render, card = core.NodePath("render"), core.CardMaker("cabinet")
     render.attach_new_node(card.generate()).set_material(core.Material("Oak planks"))
     assert material_names(snapshot(render).objects[0]) == ("Oak planks",)
+
+
+def test_a_material_without_faces_is_no_material() -> None:
+    mesh = Box((1.0, 1.0, 1.0)).mesh
+    rows = np.ones(len(mesh.faces), np.int32)
+    assert names_by_area(mesh, rows, ["steel", "oak", "glass"]) == ("oak",)
+    rows[:4] = 0
+    assert names_by_area(mesh, rows, ["steel", "oak", "glass"]) == ("oak", "steel")

@@ -83,6 +83,7 @@ def test_one_mtllib_statement_can_name_several_libraries(tmp_path: Path) -> None
         ("-o 0.5", [WHITE, BLUE, RED, GREEN]),
         ("-o 0 0.5 0", [RED, GREEN, WHITE, BLUE]),
         ("-s -1 1", [WHITE, BLUE, RED, GREEN]),
+        ("-s -1", [WHITE, BLUE, RED, GREEN]),
         # u' = 2 u + 0.25: 0.25 and 0.75 become 0.75 and 1.75.
         ("-clamp on -s 2 1 1 -bm 0.5 -o 0.25", [WHITE, WHITE, GREEN, GREEN]),
         ("-mm 0 1 -blendu on -imfchan r", [BLUE, WHITE, GREEN, RED]),

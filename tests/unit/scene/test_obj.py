@@ -84,8 +84,8 @@ def test_materials_split_an_object_into_pieces() -> None:
 
 
 def test_comments_continued_lines_and_vertex_colours_are_accepted() -> None:
-    vertices = "# a square\r\nv 0 0 0 1 0 0\r\nv 1 0 0 # corner\r\nv 1 1 0 1.0\r\n\r\n"
-    text = vertices + "vn 0 0 1\r\ns 1\r\nl 1 2\r\nf 1 \\\r\n 2 3\r\n"
+    vertices = "# in C:\\models\\\r\nv 0 0 0 1 0 0\r\nv 1 0 0 # corner\r\nv 1 1 0 1.0\r\n\r\n"
+    text = vertices + "vn 0 0 1\r\ns 1\r\nl 1 2\r\nf 1 \\\r\n 2 3 # front\r\n"
     assert corners(text) == [[[0, 0, 0], [1, 0, 0], [1, 1, 0]]]
 
 

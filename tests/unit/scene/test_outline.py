@@ -29,6 +29,13 @@ def test_outline_excludes_its_hole() -> None:
     assert outline.distance_m(np.array([[0.7, 0.7], [0.2, 0.125], [0.05, 0.9]])) == pytest.approx([0.2, 0.025, 0.0])
 
 
+def test_moments_of_a_triangle_are_those_of_a_handbook() -> None:
+    a, b = 1.2, 0.6
+    middle, products = Outline((((0.0, 0.0), (a, 0.0), (0.0, b)),)).moments
+    assert middle == pytest.approx([a / 3, b / 3], rel=1e-3)
+    np.testing.assert_allclose(products, [[a**2 / 18, -a * b / 36], [-a * b / 36, b**2 / 18]], rtol=1e-3)
+
+
 @settings(max_examples=50)
 @given(st.lists(st.floats(0.2, 1.0), min_size=3, max_size=12), st.integers(1, 40), st.integers(1, 40), st.booleans())
 def test_pixel_coverage_sums_to_the_area(radii: list[float], nx: int, ny: int, backwards: bool) -> None:
@@ -85,12 +92,31 @@ def test_notches_are_corners_that_point_inwards() -> None:
     assert len(Outline((ring.tolist(), (0.5 * ring).tolist())).notches_m) == 0  # curves have no notches
 
 
+def test_corners_of_a_curve_do_not_depend_on_where_its_ring_begins() -> None:
+    """A square with half a disc cut out of one side."""
+    turn = np.linspace(np.pi, 0.0, 13)
+    bite = np.column_stack([0.5 + 0.2 * np.cos(turn), 0.2 * np.sin(turn)])
+    ring = np.concatenate([bite, [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)]])
+    inward = {tuple(corner) for corner in bite[1:-1].tolist()}
+    for start in range(len(ring)):
+        corners, radii_m = Outline((np.roll(ring, start, axis=0),)).inward
+        assert {tuple(corner) for corner in corners.tolist()} == inward
+        assert radii_m == pytest.approx(0.2, rel=0.02)
+
+
+@pytest.mark.parametrize("angle_rad", [-0.7, 0.0, 0.3])
+def test_slant_is_that_of_the_sides_of_notches(angle_rad: float) -> None:
+    assert Outline((SQUARE,)).turned(angle_rad)[0].slant_rad == 0.0
+    assert Outline((L,)).turned(angle_rad)[0].slant_rad == pytest.approx(angle_rad)
+
+
 @pytest.mark.parametrize(
     ("rings", "words"),
     [
         ((), "has 0 corners; it must have 3"),
         ((SQUARE[:2],), "ring 0 .* at least 3 corners"),
         ((((0, 0), (1, 0), (2, 0)),), "must have an area"),
+        ((SQUARE, SQUARE), "covers 0 m2 of 1 × 1 m; it must have an area"),
         ((((0, 0), (1, 0), (math.nan, 1)),), "finite"),
         (("round",), "ring 0"),
     ],

@@ -66,6 +66,7 @@ def test_from_matrix_restores_the_pose(pose: Pose) -> None:
     # q and -q are one rotation. A pose keeps a quaternion whose length is within 1e-9 of 1, so divide by its length.
     cosine = abs(np.dot(again.rotation_xyzw, pose.rotation_xyzw)) / math.hypot(*pose.rotation_xyzw)
     assert cosine == pytest.approx(1.0, abs=1e-12)
+    assert again.rotation_xyzw[3] >= 0.0
 
 
 @pytest.mark.parametrize("axis", ["x", "y", "z"])
@@ -146,3 +147,5 @@ def test_a_transposed_matrix_and_one_with_perspective_are_refused() -> None:
     with pytest.raises(SceneError, match=r"\(1.0, 2.0, 3.0, 1.0\) in its last row.*Give matrix.T"):
         Pose.from_matrix(matrix)
     assert Pose.from_matrix(matrix.T).position_m == (1.0, 2.0, 3.0)
+    with pytest.raises(SceneError, match=r"\(0.0, 0.0, 0.5, 1.0\) in its last row"):
+        Pose.from_matrix([*np.eye(4)[:3], (0.0, 0.0, 0.5, 1.0)])

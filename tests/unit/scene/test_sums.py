@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from scene2hap import load_scene
+from scene2hap import SceneSnapshot, load_scene
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.engines import mjcf_files, mujoco_geoms
@@ -65,10 +65,15 @@ def test_only_complete_cuboids_are_recognised() -> None:
     one_turned[3] = one_turned[3, ::-1]
     twice[1] = twice[0]
     other_half[:2] = other_half[2:4]
+    # Both diagonals of one side, which its four corners allow, and another side left open.
+    open_box, (first, second) = faces.copy(), faces[:2].tolist()
+    (lone,), (opposite,) = {*first} - {*second}, {*second} - {*first}
+    x, y = (first * 2)[first.index(lone) + 1 :][:2]
+    open_box[2:4] = (lone, x, opposite), (lone, opposite, y)
     dented = points.copy()
     dented[0] *= 0.9
     flat = points * [1, 1, 0]
-    wrong = [(points, faces[:11]), (points, one_turned), (points, twice), (points, other_half)]
+    wrong = [(points, each) for each in (faces[:11], one_turned, twice, other_half, open_box)]
     for vertices, triangles in [*wrong, (dented, faces), (flat, faces)]:
         assert cuboid_bounds_m(TriMesh(vertices, triangles)) is None
 
@@ -89,6 +94,15 @@ def test_distinct_shapes_are_limited_by_a_budget(tmp_path: Path, monkeypatch: py
     assert len(load_scene(tetrahedra(tmp_path, 1)).objects) == 1
     with pytest.raises(SceneError, match="object 't[1-3]' brings the rays that measure its shapes.*copies of fewer"):
         load_scene(tetrahedra(tmp_path, 5))
+
+
+def test_vertices_of_scene_json_raise_the_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    document = json.loads(load_scene(tetrahedra(tmp_path, 3)).to_json())
+    for row in document["objects"]:
+        del row["surface"]
+    monkeypatch.setattr(surfaces, "_FREE", 0)
+    monkeypatch.setattr(surfaces, "_PER_VERTEX", 1e6)
+    assert len(SceneSnapshot.from_json(json.dumps(document)).objects) == 3
 
 
 def test_copies_and_boxes_use_no_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -52,6 +52,37 @@ def test_budget_grows_with_stored_bytes() -> None:
     budget.spend(9, "a")
 
 
+def test_nodes_are_counted_in_total(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(limits, "MAX_NODES", 5)
+    size = limits.TreeSize()
+    size.add_nodes(3)
+    size.add_nodes(2)
+    with pytest.raises(SceneError, match="number of nodes is 6; .*MAX_NODES"):
+        size.add_nodes(1)
+
+
+def test_numbers_of_a_buffer_in_its_own_file_raise_the_budget(tmp_path: Path) -> None:
+    """400,000 positions of three bytes: more numbers than are free."""
+    points = np.zeros((400_000, 4), np.uint8)
+    points[:3, :3] = np.eye(3) * 255
+    faces = np.arange(3, dtype=np.uint32)
+    path = gltf(
+        tmp_path,
+        accessors=[
+            {"type": "VEC3", "componentType": 5121, "normalized": True, "count": len(points), "bufferView": 0},
+            {"type": "SCALAR", "componentType": 5125, "count": 3, "bufferView": 1},
+        ],
+        primitives=[{"attributes": {"POSITION": 0}, "indices": 1}],
+        data=points.tobytes() + faces.tobytes(),
+        bufferViews=[
+            {"buffer": 0, "byteLength": points.nbytes, "byteStride": 4},
+            {"buffer": 0, "byteOffset": points.nbytes, "byteLength": faces.nbytes},
+        ],
+        extensionsRequired=["KHR_mesh_quantization"],
+    )
+    assert len(load_scene(path).objects) == 1
+
+
 def test_accessors_without_bytes_are_limited(tmp_path: Path) -> None:
     many = [{"attributes": {"POSITION": i}} for i in range(50)]
     with pytest.raises(SceneError, match="the numbers in its accessors"):

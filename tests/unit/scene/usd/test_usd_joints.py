@@ -65,6 +65,22 @@ def test_bodies_that_turn_on_others_or_are_fixed_to_them_have_hinges(tmp_path: P
     assert held["tool"].point_m == pytest.approx((-0.5, 0.0, 0.0), abs=1e-6)
 
 
+def test_a_hinge_does_not_depend_on_where_the_robot_is(tmp_path: Path) -> None:
+    def moved(stage: Any) -> None:
+        robot = usd("UsdGeom").Xform.Define(stage, "/robot")
+        robot.AddTranslateOp().Set((5.0, 1.0, 0.0))
+        robot.AddRotateXYZOp().Set((0.0, 0.0, 90.0))
+        arm(stage)
+
+    here, there = scene_of(arm, tmp_path), scene_of(moved, tmp_path)
+    for name in ("elbow", "hand", "tool"):
+        one, other = here.object(name).hinge, there.object(name).hinge
+        assert one is not None
+        assert other is not None
+        assert other.point_m == pytest.approx(one.point_m, abs=1e-6)
+        assert other.other_point_m == pytest.approx(one.other_point_m, abs=1e-6)
+
+
 def test_hinges_come_from_the_child_process(tmp_path: Path, child: None) -> None:
     stage = new_stage(tmp_path / "arm.usdc")
     arm(stage)

@@ -1,0 +1,60 @@
+"""A session that frames drive, without a server."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from scene2hap import HapticSession, MemorySink
+from scene2hap.bridge.frames import Frame, decode_frame, encode_frame
+from scene2hap.bridge.played_session import LONGEST_FRAME_S, PlayedSession
+from scene2hap.errors import SessionError
+from scenes import table_with_two_phones
+
+MOVING = ("phone", "cup")
+
+
+@pytest.fixture
+def played() -> Iterator[PlayedSession]:
+    sink = MemorySink()
+    scene, bundle = table_with_two_phones()
+    session = HapticSession(scene, bundle, hands=("left",), sink=sink)
+    session.wait_prepared()
+    made = PlayedSession(session, MOVING, sink, lambda document: None)
+    yield made
+    made.close()
+
+
+def frame(played: PlayedSession, number: int, time_s: float, **moved: tuple[float, float, float]) -> Frame:
+    at = [moved.get(name, played.session.poses[name].position_m) for name in MOVING]
+    poses = np.array([[*point, 0.0, 0.0, 0.0, 1.0] for point in at])
+    return decode_frame(encode_frame(played.layout.number, bytes(8), number, time_s, poses, []))
+
+
+def test_time_that_a_game_stood_still_is_left_out(played: PlayedSession) -> None:
+    sink = played._sink
+    assert isinstance(sink, MemorySink)
+    played.take(frame(played, 1, 0.0))
+    n, rate_hz = len(sink.samples), played.session.config.sample_rate_hz
+    played.take(frame(played, 2, 0.25))
+    assert len(sink.samples) - n == round(0.25 * rate_hz)
+    played.take(frame(played, 3, 100.0))
+    assert len(sink.samples) - n == round((0.25 + LONGEST_FRAME_S) * rate_hz)
+
+
+def test_a_pose_of_a_failed_update_is_passed_on_with_the_next(
+    played: PlayedSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    x, y, z = played.session.poses["phone"].position_m
+
+    def fail(*given: object) -> None:
+        raise SessionError("no update")
+
+    with monkeypatch.context() as during:
+        during.setattr(HapticSession, "update", fail)
+        with pytest.raises(SessionError):
+            played.take(frame(played, 1, 0.0, phone=(x + 0.1, y, z)))
+    played.take(frame(played, 2, 0.02, phone=(x + 0.1, y, z)))
+    assert played.session.poses["phone"].position_m == pytest.approx((x + 0.1, y, z))
