@@ -59,8 +59,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         if not frame.gain(HAND, arguments.id):
             console.warn(f"{arguments.id!r} is silent: {_why_silent(bundle.objects[arguments.id], arguments.state)}.")
         if wav is not None:
-            for start in np.arange(0.0, seconds, _AT_ONCE_S):
-                wav.pull_s(min(_AT_ONCE_S, seconds - start))
+            with wav.whole_or_none():
+                for start in np.arange(0.0, seconds, _AT_ONCE_S):
+                    wav.pull_s(min(_AT_ONCE_S, seconds - start))
         else:
             _play(session, touch, actuator, seconds)
     if actuator.problem or not actuator.has_played:

@@ -74,5 +74,6 @@ def render_track(
             frames.append(frame)
             tell("rendering", f"{frame.time_s:.1f} s", round(frame.time_s * 10), round(track.duration_s * 10))
 
-        play_track(session, track, sink, update_rate_hz=update_rate_hz, on_frame=on_frame)
+        with sink.whole_or_none():
+            play_track(session, track, sink, update_rate_hz=update_rate_hz, on_frame=on_frame)
     return frames

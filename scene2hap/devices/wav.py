@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterator
 from pathlib import Path
 
 import soundfile
@@ -24,8 +24,9 @@ class WavSink(Pulled):
 
     It has no clock of its own: `pull` requests the next frames, `pull_s` the next seconds.
 
-    The file appears under its name when the sink is closed; a run that fails leaves none. Samples are integers: the
-    header of a float file contains a time stamp, so equal runs would give different files.
+    The file appears under its name when the sink is closed, at the latest when the program ends; a session whose
+    `with` block fails leaves none. Samples are integers: the header of a float file contains a time stamp, so equal
+    runs would give different files.
     Raises: ConfigError: no path, or one with the suffix of another kind of file.
     """
 
@@ -129,6 +130,15 @@ class WavSink(Pulled):
                 file.close()
             with contextlib.suppress(OSError):
                 self._draft.unlink()
+
+    @contextlib.contextmanager
+    def whole_or_none(self) -> Iterator[None]:
+        """Leave no file if this context fails or is interrupted."""
+        try:
+            yield
+        except BaseException:
+            self.abort()
+            raise
 
     @property
     def stats(self) -> SinkStats:

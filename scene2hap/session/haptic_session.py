@@ -572,7 +572,7 @@ class HapticSession:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if error is None:
+        if error is None or isinstance(error, KeyboardInterrupt):  # Ctrl-C ends many games
             self.stop()
         else:
             self._output.abort()

@@ -129,9 +129,9 @@ class Output:
                 self._release(self._sink, _discard(self._sink))
             raise
         self._safety, self.is_unused = safety, False
-        if has_clock(self._sink):
+        if has_clock(self._sink) or hasattr(self._sink, "abort"):
             # A program may end without `stop`: by an error, by Ctrl-C, or at the end of its code. Called before the
-            # sink's own end, which does not fade.
+            # sink's own end, which neither fades nor completes a file.
             atexit.register(self.stop)
 
     def stop(self) -> None:

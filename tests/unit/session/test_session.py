@@ -1,10 +1,15 @@
 """A session on a table with two phones."""
 
 import math
+import os
+import subprocess
+import sys
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
+import soundfile
 
 from scene2hap import (
     Bands,
@@ -238,6 +243,32 @@ def test_a_run_that_fails_leaves_no_wav(tmp_path: object) -> None:
         sink.pull(10)
         s.update(touches=[Touch("left", "tabel", (0, 0, 0))])
     assert not sink.path.exists()
+
+
+def test_a_game_that_is_interrupted_leaves_its_wav(tmp_path: object) -> None:
+    sink = WavSink(f"{tmp_path}/out.wav")
+    with pytest.raises(KeyboardInterrupt), HapticSession(*table_with_two_phones(), CONFIG, sink=sink):
+        sink.pull(10)
+        raise KeyboardInterrupt
+    assert soundfile.info(sink.path).frames >= 10
+
+
+@pytest.mark.parametrize("end", ["", "1 / 0", "raise SystemExit", "raise KeyboardInterrupt"])
+def test_a_program_that_does_not_stop_its_session_leaves_its_wav(end: str, tmp_path: Path) -> None:
+    script = f"""from scenes import table_with_two_phones
+from scene2hap import HapticSession, WavSink
+def play():
+    sink = WavSink("out.wav")
+    HapticSession(*table_with_two_phones(), sink=sink).start()
+    sink.pull(48_000)
+play()
+{end}"""
+    path = {"PYTHONPATH": os.pathsep.join(sys.path)}
+    subprocess.run([sys.executable, "-c", script], cwd=tmp_path, env=os.environ | path, capture_output=True)
+    assert [one.name for one in tmp_path.iterdir()] == ["out.wav"]
+    samples, _ = soundfile.read(tmp_path / "out.wav")
+    assert len(samples) >= 48_000
+    np.testing.assert_allclose(samples[-1], 0, atol=1e-6)  # it fades out
 
 
 class Journal(MemorySink):
