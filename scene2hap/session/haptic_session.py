@@ -196,7 +196,8 @@ class HapticSession:
             position of the last update if that is later.
         Returns: the gains of the frame.
         Warns: SceneWarning: a hand touches an object more than 5 cm off the box around it, once per hand; nothing
-        vibrates; normals of contacts that point from `b` to `a`; many touches, and the sink was never started.
+        vibrates; normals of contacts that point from `b` to `a`; many touches, and the sink was never started; a sink
+        that plays nothing, such as a sound card that is not there.
         Raises: UnknownObject: a touched or moved object is not in the scene; SessionError: an unknown hand, a position
         before that of the last update, or another type than poses, touches and contacts.
         """
@@ -218,6 +219,8 @@ class HapticSession:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
         self._impacts.follow(moved, felt, self._hands, self._user, stamp)
         self._output.feed(frame)
+        if (problem := self._output.problem) is not None:
+            self._mistakes.in_sink(problem)
         if felt:
             self._mistakes.in_sources(self._sources.ids)
             self._mistakes.in_touches(felt)
@@ -404,8 +407,8 @@ class HapticSession:
         felt = sorted(
             map(self._with_running, explained.felt), key=lambda one: -(one.gain_db + one.level_db + one.running_db)
         )
-        waiting = (NOT_STARTED,) if self._output.exists and not self._output.is_started else ()
-        reasons = (*waiting, *explained.reasons)
+        waiting = NOT_STARTED if self._output.sink is not None and not self._output.is_started else self._output.problem
+        reasons = explained.reasons if waiting is None else (waiting, *explained.reasons)
         return replace(explained, felt=tuple(felt), impacts=self._impacts.felt_by(hand), reasons=reasons)
 
     def _with_running(self, felt: FeltSource) -> FeltSource:
@@ -565,7 +568,7 @@ class HapticSession:
         )
 
     def __enter__(self) -> Self:
-        if self._output.exists:
+        if self._output.sink is not None:
             self.start()
         return self
 
@@ -576,6 +579,11 @@ class HapticSession:
             self.stop()
         else:
             self._output.abort()
+
+    @property
+    def sink(self) -> ActuatorSink | None:
+        """The output that `start` sends the mix to, None without one."""
+        return self._output.sink
 
     @property
     def stats(self) -> SessionStats:

@@ -6,7 +6,7 @@
 - Touches and strikes far from the box around their object. Almost always the point is in other units, in the object's
   own frame, or from another frame of the game.
 - Added objects that will not be felt, a scene in which nothing vibrates, a user's profile for other hands.
-- A sink that is never started.
+- A sink that is never started, or has no device.
 """
 
 from __future__ import annotations
@@ -72,6 +72,7 @@ class LikelyMistakes:
         self._n_silent_named = 0
         self._n_unplayed = 0
         self._has_moved = self._is_silence_named = self._knows_normals = self._is_strike_named = False
+        self._is_sink_named = False
         self.n_touches_off: int = 0
 
     def in_moves(self, moved: Mapping[str, Pose]) -> None:
@@ -136,6 +137,12 @@ class LikelyMistakes:
         self._n_unplayed += 1
         if self._n_unplayed == UNPLAYED:
             warn_of(f"{UNPLAYED} updates had touches, and the sink of the session was never started. {NOT_STARTED}")
+
+    def in_sink(self, problem: str) -> None:
+        """Warn once that the sink plays nothing. Warns: SceneWarning."""
+        if not self._is_sink_named:
+            self._is_sink_named = True
+            warn_of(f"{problem} Give the sink an `on_event` to get such messages yourself.")
 
     def in_strike(self, object_id: str, point_m: Point) -> None:
         """Warn about the first strike that is too far off. Warns: SceneWarning."""

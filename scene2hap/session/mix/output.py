@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scene2hap.common import checks
 from scene2hap.devices import SINKS
 from scene2hap.devices.exclusive_use import claim_sink, give_back_sink
-from scene2hap.devices.protocol import ActuatorSink, Fill, SinkFormat, has_clock
+from scene2hap.devices.protocol import ActuatorSink, Fill, SinkEvent, SinkFormat, has_clock
 from scene2hap.errors import ConfigError, DeviceError, SessionError
 from scene2hap.render.safety import FADE_OUT_S, SafetyLayer, SafetyStats
 from scene2hap.session.config import SessionConfig
@@ -23,6 +23,8 @@ from scene2hap.session.frame import HapticFrame
 
 LONGEST_FADE_OUT_S = 0.25
 """Longest time for which `stop` waits until the sink has taken the fade; without its device it may never take it."""
+
+_PROBLEMS = ("unavailable", "stalled", "lost", "fault")
 
 
 class Output:
@@ -42,12 +44,15 @@ class Output:
             )
         built = cast("ActuatorSink", SINKS.build(sink)) if sink is not None else None
         self._pid = os.getpid()
-        self._sink = built
+        self.sink: ActuatorSink | None = built
         self._config = config
         self._safety: SafetyLayer | None = None
         self._limits: NDArray[np.float64] | None = None
         self._show: Callable[[HapticFrame], None] | None = getattr(built, "show", None)
         self._shown: HapticFrame | None = None
+        self._event: SinkEvent | None = None
+        if getattr(built, "on_event", self) is None:
+            built.on_event = self._note  # type: ignore[union-attr]  # looked up by name, see ActuatorSink
         self.is_unused: bool = built is not None
         """Whether a sink is set that was never started."""
 
@@ -61,11 +66,6 @@ class Output:
             )
 
     @property
-    def exists(self) -> bool:
-        """Whether a sink is set."""
-        return self._sink is not None
-
-    @property
     def is_started(self) -> bool:
         """Whether the sink is playing the mix."""
         return self._safety is not None
@@ -74,6 +74,15 @@ class Output:
     def safety_stats(self) -> SafetyStats:
         """Counters of samples that the safety layer of a started sink changed."""
         return self._safety.stats if self._safety is not None else SafetyStats()
+
+    @property
+    def problem(self) -> str | None:
+        """Why a started sink plays nothing, None if it plays or if the game gets its events itself."""
+        event = self._event if self._safety is not None else None
+        return event.message if event is not None and event.kind in _PROBLEMS else None
+
+    def _note(self, event: SinkEvent) -> None:
+        self._event = event
 
     def feed(self, frame: HapticFrame) -> None:
         """Reset the watchdog, and pass the gains to the sink."""
@@ -106,12 +115,12 @@ class Output:
         A sink that cannot be opened or started is closed again.
         Raises: SessionError: there is no sink; DeviceError: it cannot be opened, or another session uses it.
         """
-        if self._sink is None:
+        if self.sink is None:
             raise SessionError("this session has no sink; give one to HapticSession(..., sink=), or call render.")
         if self._safety is not None:
             return
         rate = self._config.sample_rate_hz
-        watchdog_s = self._config.watchdog_s if has_clock(self._sink) else None
+        watchdog_s = self._config.watchdog_s if has_clock(self.sink) else None
         safety = SafetyLayer(
             self._config.actuator,
             rate,
@@ -120,16 +129,16 @@ class Output:
             limits=self._limits,
             on_trip=self._show_silence,
         )
-        claim_sink(self._sink, self)
+        claim_sink(self.sink, self)
         try:
-            self._sink.open(SinkFormat(rate, tuple(hands)))
-            self._sink.start(safety.guard(fill))
+            self.sink.open(SinkFormat(rate, tuple(hands)))
+            self.sink.start(safety.guard(fill))
         except BaseException:
             with contextlib.suppress(Exception):  # the first error says what is wrong
-                self._release(self._sink, _discard(self._sink))
+                self._release(self.sink, _discard(self.sink))
             raise
         self._safety, self.is_unused = safety, False
-        if has_clock(self._sink) or hasattr(self._sink, "abort"):
+        if has_clock(self.sink) or hasattr(self.sink, "abort"):
             # A program may end without `stop`: by an error, by Ctrl-C, or at the end of its code. Called before the
             # sink's own end, which neither fades nor completes a file.
             atexit.register(self.stop)
@@ -150,7 +159,7 @@ class Output:
 
     def _played_here(self) -> ActuatorSink | None:
         """The sink if it is started and this process made it."""
-        return self._sink if self._safety is not None and os.getpid() == self._pid else None
+        return self.sink if self._safety is not None and os.getpid() == self._pid else None
 
     def _release(self, sink: ActuatorSink, end: Callable[[], None]) -> None:
         """Stop a sink and call `end`, `close` or `abort`, also if it does not stop; then give it back."""
@@ -170,9 +179,9 @@ class Output:
         Raises: SessionError: the started sink cannot change its channels; also the errors of `start`.
         """
         was_started = self._safety is not None
-        if was_started and self._sink is not None and not has_clock(self._sink):
+        if was_started and self.sink is not None and not has_clock(self.sink):
             raise SessionError(
-                f"{type(self._sink).__name__} has one channel per hand from its start, so that hands cannot come or go "
+                f"{type(self.sink).__name__} has one channel per hand from its start, so that hands cannot come or go "
                 "while it runs. Name all hands when the session is made, or stop it first."
             )
         if was_started:

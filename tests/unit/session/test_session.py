@@ -18,11 +18,12 @@ from scene2hap import (
     MemorySink,
     NoPropagation,
     Pose,
+    SceneWarning,
     Touch,
     WavSink,
     materials,
 )
-from scene2hap.devices.protocol import Fill
+from scene2hap.devices.protocol import EventCallback, Fill, SinkEvent
 from scene2hap.errors import ConfigError, DeviceError, ModelDomainError, SessionError, UnknownObject
 from scene2hap.render.safety import SafetyLayer
 from scenes import RATE, table_with_two_phones
@@ -269,6 +270,33 @@ play()
     samples, _ = soundfile.read(tmp_path / "out.wav")
     assert len(samples) >= 48_000
     np.testing.assert_allclose(samples[-1], 0, atol=1e-6)  # it fades out
+
+
+class Deviceless(MemorySink):
+    """A sink whose device is not there."""
+
+    on_event: EventCallback | None = None
+
+    def start(self, fill: Fill) -> None:
+        super().start(fill)
+        if self.on_event is not None:
+            self.on_event(SinkEvent("unavailable", "no card. Plug one in.", 0.0))
+
+
+def test_a_sink_without_its_device_is_named_once() -> None:
+    with HapticSession(*table_with_two_phones(), CONFIG, sink=Deviceless()) as s:
+        with pytest.warns(SceneWarning, match=r"no card\. Plug one in\."):
+            s.update(touches=[ON_TABLE])
+        s.update(touches=[ON_TABLE])
+        assert "no card" in s.explain("left").text
+
+
+def test_a_game_that_listens_to_its_sink_gets_no_warning() -> None:
+    sink, events = Deviceless(), list[SinkEvent]()
+    sink.on_event = events.append
+    with HapticSession(*table_with_two_phones(), CONFIG, sink=sink) as s:
+        s.update(touches=[ON_TABLE])
+    assert [one.kind for one in events] == ["unavailable"]
 
 
 class Journal(MemorySink):
