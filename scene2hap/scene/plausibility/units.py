@@ -104,7 +104,7 @@ def implausible(snapshot: SceneData, unit_m: float = 1.0) -> Doubt | None:
     evidence = _evidence_of(snapshot.objects, bounds[:, 1, up] - _ground_m(bounds, floors, up), extents)
     by_name = _by_names(evidence) if evidence else None
     # A single name may mislead (a worktop called `Table`), so the size of the whole scene is checked first.
-    found = by_name if len(evidence) > 1 else _by_size(high - low, up, extents.max(axis=1)) or by_name
+    found = by_name if len(evidence) > 1 else _by_size(high - low, up, extents.max(axis=1), by_name) or by_name
     if found is None:
         return None
     factor, reason = found
@@ -181,7 +181,13 @@ def _by_names(evidence: Sequence[_Evidence]) -> tuple[float, str] | None:
     return (near[0] if near else factor), f"{one.name!r} {where.format(one.measured_m)}, where {span} is usual"
 
 
-def _by_size(size_m: NDArray[np.float64], up: int, edges_m: NDArray[np.float64]) -> tuple[float, str] | None:
+def _by_size(
+    size_m: NDArray[np.float64], up: int, edges_m: NDArray[np.float64], by_name: tuple[float, str] | None
+) -> tuple[float, str] | None:
+    """Return the likely unit of a scene that is far too large or small, and its size in words.
+
+    Parameters: by_name : what a single name says, which decides between units that make a room of the scene.
+    """
     width, height = float(np.delete(size_m, up).max()), float(size_m[up])
     is_small = width < _MIN_WIDTH_M and height < _MIN_WIDTH_M and len(edges_m) >= _MIN_OBJECTS
     is_large = (width > _MAX_WIDTH_M or height > _MAX_HEIGHT_M) and float(np.median(edges_m)) > _MAX_MEDIAN_M
@@ -195,6 +201,8 @@ def _by_size(size_m: NDArray[np.float64], up: int, edges_m: NDArray[np.float64])
         unit = next(rooms, None)
         return None if unit is None else (unit, _size(width, height))
     likely = [unit for unit in _UNITS if low <= width * unit <= high]
+    if by_name is not None and by_name[0] in likely:
+        return by_name[0], _size(width, height)
     # Rooms differ less in height than in width.
     low, high = _ROOM_HEIGHT_M
     likely = [unit for unit in likely if low <= height * unit <= high] or likely or [_TYPICAL_WIDTH_M / width]

@@ -52,6 +52,11 @@ def test_unit_is_suggested_from_furniture_sizes(scale: float, unit_m: float) -> 
     assert suggestion(room(scale, FURNITURE)) == unit_m
 
 
+@pytest.mark.parametrize(("scale", "unit_m"), [(100.0, 0.01), (39.37, 0.0254)])
+def test_one_named_table_decides_between_units_of_a_room_without_walls(scale: float, unit_m: float) -> None:
+    assert suggestion(room(scale, [("table", 1.2, 0.72), ("thing", 0.45, 0.9), ("blower", 0.3, 0.3)])) == unit_m
+
+
 @pytest.mark.parametrize("scale", [1.8, 0.5])
 def test_toy_scale_is_suggested_as_a_ratio(scale: float) -> None:
     assert suggestion(room(scale, FURNITURE)) == pytest.approx(1 / scale, rel=0.15)
