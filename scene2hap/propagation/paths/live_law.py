@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from scene2hap.contact.junction import Junction
 from scene2hap.propagation.bands.band_rms import BandRms
-from scene2hap.propagation.live import LiveField, Prices, TouchedPoint
+from scene2hap.propagation.live import CostsByHand, LiveField, TouchedPoint
 from scene2hap.propagation.paths.contact_paths import ContactPaths, Triple
 
 if TYPE_CHECKING:
@@ -50,15 +50,15 @@ class _CrossingCosts(dict[float, float]):
 class LivePaths:
     """Cost of the cheapest path from each source to a touch, over a contact graph as it is now.
 
-    Parameters: graph : read before each query, never copied; price_per_m : cost of a metre through each object, >= 0;
-    objects without a price pass nothing on; crossing_cost : cost of crossing a contact, by its weight; max_hops :
+    Parameters: graph : read before each query, never copied; cost_per_m : cost of a metre through each object, >= 0;
+    objects without one pass nothing on; crossing_cost : cost of crossing a contact, by its weight; max_hops :
     contacts that a path may cross, None for any number.
     """
 
     def __init__(
         self,
         graph: ContactGraph,
-        price_per_m: Mapping[str, float],
+        cost_per_m: Mapping[str, float],
         crossing_cost: Callable[[float], float],
         source_ids: Sequence[str],
         max_hops: int | None,
@@ -66,7 +66,7 @@ class LivePaths:
         self._graph, self._beside = graph, graph.beside
         rows = {source_id: row for row, source_id in enumerate((*source_ids, _POINT))}
         self._point_row, self._crossing_costs = len(source_ids), _CrossingCosts(crossing_cost)
-        self._given = dict(price_per_m), rows
+        self._given = dict(cost_per_m), rows
         self._paths = ContactPaths(*self._given, self._crossing_costs, max_hops)
         self._version = -1
 
@@ -138,7 +138,7 @@ class LivePaths:
 class Gamma(Protocol):
     """Attenuation as a function of path cost."""
 
-    def __call__(self, prices: Prices, columns: Sequence[int] | None) -> Floats:
+    def __call__(self, costs: CostsByHand, columns: Sequence[int] | None) -> Floats:
         """Attenuation (n, n_columns, n_bands) [-] at n costs of each source in `columns`, None for all sources."""
         ...
 
@@ -162,24 +162,24 @@ class LiveLaw:
 
     def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:
         """See `LiveField`."""
-        return self.at(self.prices(hands))
+        return self.at(self.path_costs(hands))
 
-    def prices(
+    def path_costs(
         self,
         hands: Sequence[Sequence[TouchedPoint]],
         limits: Sequence[float] | None = None,
         among: Sequence[Collection[int]] | None = None,
-    ) -> Prices:
-        """See `PricedField`."""
+    ) -> CostsByHand:
+        """See `PathCostField`."""
         least_costs = self._paths.least_costs
         if among is None:
             return [least_costs(touched, limits) for touched in hands]
         return [least_costs(touched, limits, rows) for touched, rows in zip(hands, among, strict=True)]
 
-    def at(self, prices: Prices, columns: Sequence[int] | None = None) -> Floats:
-        """See `PricedField`."""
-        gamma = self._gamma(prices, columns)
-        return np.maximum(gamma, self._floor * np.isfinite(prices)[:, :, None]) if self._floor else gamma
+    def at(self, costs: CostsByHand, columns: Sequence[int] | None = None) -> Floats:
+        """See `PathCostField`."""
+        gamma = self._gamma(costs, columns)
+        return np.maximum(gamma, self._floor * np.isfinite(costs)[:, :, None]) if self._floor else gamma
 
     def from_point(
         self, object_id: str, point_m: Triple, hands: Sequence[Sequence[TouchedPoint]], frequencies_hz: Floats
@@ -199,9 +199,9 @@ class GammaAt:
     def __init__(self, frequencies_hz: Floats) -> None:
         self._minus_root_omega = -np.sqrt(2 * math.pi * frequencies_hz)
 
-    def __call__(self, prices: Prices, columns: Sequence[int] | None) -> Floats:
+    def __call__(self, costs: CostsByHand, columns: Sequence[int] | None) -> Floats:
         """See `Gamma`; one band."""
-        gamma = np.array(prices)
+        gamma = np.array(costs)
         gamma *= self._minus_root_omega if columns is None else self._minus_root_omega.take(columns)
         np.exp(gamma, out=gamma)
         return gamma[:, :, None]
@@ -213,7 +213,7 @@ class GammaOver:
     def __init__(self, bands: BandRms) -> None:
         self._bands = bands
 
-    def __call__(self, prices: Prices, columns: Sequence[int] | None) -> Floats:
+    def __call__(self, costs: CostsByHand, columns: Sequence[int] | None) -> Floats:
         """See `Gamma`; the same for all sources."""
-        gamma = self._bands([price for row in prices for price in row])
-        return gamma.reshape(len(prices), len(prices[0]) if prices else 0, gamma.shape[1])
+        gamma = self._bands([cost for row in costs for cost in row])
+        return gamma.reshape(len(costs), len(costs[0]) if costs else 0, gamma.shape[1])
