@@ -25,7 +25,8 @@ from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.band_rms import BandRms, band_rms
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_thin
-from scene2hap.propagation.paths.live_law import GammaAt, GammaOver, LiveLaw, LivePaths
+from scene2hap.propagation.paths.gamma import Gamma, GammaAt, GammaOver, floored
+from scene2hap.propagation.paths.live_law import LiveLaw, LivePaths
 from scene2hap.propagation.paths.prepared_paths import Arrivals, arrivals_at, cheapest_arrivals
 from scene2hap.propagation.plate import Plate, require_plate
 from scene2hap.propagation.points import as_points
@@ -127,7 +128,7 @@ class ExponentialPlate:
         source_ids = tuple(excitation.source_id for excitation in excitations)
         costs_per_m = self._costs_per_m(bodies, excitations, bands)
         paths = LivePaths(graph, costs_per_m, self.crossing_cost, source_ids, self.max_hops)
-        gamma: GammaAt | GammaOver
+        gamma: Gamma
         if bands.kind == "dominant":
             gamma = GammaAt(np.array([self.frequency_hz(item) for item in excitations]))
         else:
@@ -193,8 +194,6 @@ class ExponentialField:
     def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
         """Gamma at points of one object; see `PropagationField`."""
         length = arrivals_at(self.arrivals, self.cost_per_m, self.source_ids, object_id, points_m)
-        if self.bands.kind == "dominant":
-            gamma: NDArray[np.float64] = np.exp(-length * np.sqrt(2 * math.pi * self.dominant_hz))[:, :, None]
-        else:
-            gamma = band_rms(length, self.bands.widths_hz())
-        return np.maximum(gamma, self.floor * np.isfinite(length)[:, :, None]) if self.floor else gamma
+        is_dominant = self.bands.kind == "dominant"
+        gamma = GammaAt(self.dominant_hz)(length) if is_dominant else band_rms(length, self.bands.widths_hz())
+        return floored(gamma, length, self.floor)

@@ -1,24 +1,22 @@
-"""The paper's law over a contact graph that changes between queries.
+"""The paper's law (`gamma`) over a contact graph that changes between queries.
 
-    Gamma = exp(-L sqrt(omega)),  L the cost of the cheapest path (`LivePaths`)
-
-Gamma falls with L, so the nearest of a hand's touches is the loudest. Costs are compared first, and the law is
-evaluated once for each hand and source.
+Gamma falls with the cost of the cheapest path (`LivePaths`), so the nearest of a hand's touches is the loudest. Costs
+are compared first, and the law is evaluated once for each hand and source.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.contact.junction import Junction
-from scene2hap.propagation.bands.band_rms import BandRms
 from scene2hap.propagation.live import CostsByHand, LiveField, TouchedPoint
 from scene2hap.propagation.paths.contact_paths import ContactPaths, Triple
+from scene2hap.propagation.paths.gamma import Gamma, GammaAt, floored
 
 if TYPE_CHECKING:
     from scene2hap.contact.graph import ContactGraph
@@ -135,14 +133,6 @@ class LivePaths:
         return [cost - self._crossing_costs[1.0] for cost in found]
 
 
-class Gamma(Protocol):
-    """Attenuation as a function of path cost."""
-
-    def __call__(self, costs: CostsByHand, columns: Sequence[int] | None) -> Floats:
-        """Attenuation (n, n_columns, n_bands) [-] at n costs of each source in `columns`, None for all sources."""
-        ...
-
-
 class LiveLaw:
     """A live field of the paper's law.
 
@@ -178,42 +168,13 @@ class LiveLaw:
 
     def at(self, costs: CostsByHand, columns: Sequence[int] | None = None) -> Floats:
         """See `PathCostField`."""
-        gamma = self._gamma(costs, columns)
-        return np.maximum(gamma, self._floor * np.isfinite(costs)[:, :, None]) if self._floor else gamma
+        return floored(self._gamma(costs, columns), costs, self._floor)
 
     def from_point(
         self, object_id: str, point_m: Triple, hands: Sequence[Sequence[TouchedPoint]], frequencies_hz: Floats
     ) -> Floats:
         """See `PointField`."""
-        root_omega = np.sqrt(2 * math.pi * frequencies_hz)
-        limit = math.inf if self._floor else -math.log(_FAINTEST) / float(root_omega.min())
+        root_omega = math.sqrt(2 * math.pi * frequencies_hz.min())
+        limit = math.inf if self._floor else -math.log(_FAINTEST) / root_omega
         costs = np.array(self._paths.costs_from(object_id, point_m, hands, limit)).reshape(-1, 1)
-        gamma: Floats = np.exp(-costs * root_omega)
-        arrives: Floats = np.isfinite(costs).astype(np.float64)
-        return np.maximum(gamma, self._floor * arrives)
-
-
-class GammaAt:
-    """exp(-L sqrt(omega)) at one frequency [Hz] for each source, which is its only band."""
-
-    def __init__(self, frequencies_hz: Floats) -> None:
-        self._minus_root_omega = -np.sqrt(2 * math.pi * frequencies_hz)
-
-    def __call__(self, costs: CostsByHand, columns: Sequence[int] | None) -> Floats:
-        """See `Gamma`; one band."""
-        gamma = np.array(costs)
-        gamma *= self._minus_root_omega if columns is None else self._minus_root_omega.take(columns)
-        np.exp(gamma, out=gamma)
-        return gamma[:, :, None]
-
-
-class GammaOver:
-    """The root mean square of exp(-L sqrt(omega)) over bands."""
-
-    def __init__(self, bands: BandRms) -> None:
-        self._bands = bands
-
-    def __call__(self, costs: CostsByHand, columns: Sequence[int] | None) -> Floats:
-        """See `Gamma`; the same for all sources."""
-        gamma = self._bands([cost for row in costs for cost in row])
-        return gamma.reshape(len(costs), len(costs[0]) if costs else 0, gamma.shape[1])
+        return floored(GammaAt(frequencies_hz)(costs), costs, self._floor)[:, :, 0]
