@@ -46,14 +46,18 @@ class ElasticBody(Protocol):
         ...
 
 
-@runtime_checkable
-class SpatialBody(Protocol):
-    """A body that moves in three directions. Its points are ports (n, 6): x, y and height over the mid-plane [m], and a
-    unit direction, all in the body's coordinates."""
+class SpatialBody:
+    """Base of bodies that move in three directions. Points of such an `ElasticBody` are ports (n, 6): x, y and height
+    over the mid-plane [m], and a unit direction, all in the body's coordinates.
+
+    A base and not a protocol, since every touch under a hand asks for it: a protocol takes microseconds to check.
+    """
 
     def felt(self, points_m: Floats) -> Floats:
         """Ports (3 n, 6) of points (n, 2) [m] in three directions: all points along the normal, then along y and x."""
-        ...
+        n = len(points_m)
+        flat = np.column_stack([points_m, np.zeros(n)])
+        return np.concatenate([np.column_stack([flat, np.tile(axis, (n, 1))]) for axis in np.eye(3)[::-1]])
 
 
 class ResponseBasis(Protocol):

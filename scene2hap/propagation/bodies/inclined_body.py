@@ -23,7 +23,14 @@ from numpy.typing import NDArray
 
 from scene2hap.propagation.bodies.legged_body import LeggedBody
 from scene2hap.propagation.bodies.rigid import RigidMotion
-from scene2hap.propagation.elastic_body import AnyFloat, ElasticBody, HasResponseBasis, ResponseBasis, real_times
+from scene2hap.propagation.elastic_body import (
+    AnyFloat,
+    ElasticBody,
+    HasResponseBasis,
+    ResponseBasis,
+    SpatialBody,
+    real_times,
+)
 from scene2hap.propagation.modal.in_plane import InPlaneModes, in_plane_modes
 from scene2hap.propagation.plate import Plate
 
@@ -89,8 +96,8 @@ class Held:
 
 
 @dataclass(frozen=True, eq=False)
-class InclinedBody:
-    """A `SpatialBody`.
+class InclinedBody(SpatialBody):
+    """An `ElasticBody` that is also driven along its plane.
 
     Parameters: bending : the plate's motion along its normal, None for a compact body; motions : all other motions;
     strain_loss : loss factor of motions that strain the plate.
@@ -127,12 +134,6 @@ class InclinedBody:
         stiff = self.motions.squares * complex(1.0, self.strain_loss)
         yielding = self.motions.signs / (stiff - (2 * np.pi * frequencies_hz[:, None]) ** 2)
         return yielding.astype(np.complex128, copy=False)
-
-    def felt(self, points_m: Floats) -> Floats:
-        """See `SpatialBody`."""
-        n = len(points_m)
-        flat = np.column_stack([points_m, np.zeros(n)])
-        return np.concatenate([np.column_stack([flat, np.tile(axis, (n, 1))]) for axis in np.eye(3)[::-1]])
 
 
 class InclinedShapes(InclinedBody):
