@@ -29,14 +29,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, Plate, Pose, PropagationField, materials
-from scene2hap.propagation import infinite_plate
 from scene2hap.propagation.auto import AutoFidelity, AutoField
 from scene2hap.propagation.auto_rungs import FINENESS, FLOOR_DB, MODAL_DB, Situation, body_of
-from scene2hap.propagation.coupled import rigid
+from scene2hap.propagation.bodies import infinite_body, lattice_body, modal_body, rigid
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.substructuring import CoupledField, assemble
-from scene2hap.propagation.lattice import bending_lattice, lattice_body, lattice_modes
-from scene2hap.propagation.modal import modal_body, modes
+from scene2hap.propagation.lattice import bending_lattice, lattice_modes
+from scene2hap.propagation.modal import modes
 
 REPORTED, CALIBRATING = 0, 100_000
 """First seed of the reported draws, and first seed of the draws for the bounds."""
@@ -170,7 +169,7 @@ def forget() -> None:
     of_lattices = bending_lattice.bending_lattice, bending_lattice.lines_of, bending_lattice.aligned
     for kept in (*of_lattices, bending_lattice.of_size_one, bending_lattice.outline_of):
         kept.cache_clear()
-    infinite_plate._table.cache_clear()
+    infinite_body._table.cache_clear()
 
 
 def asked(one: Draw, field: PropagationField) -> NDArray[np.float64]:

@@ -30,9 +30,9 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 from plate_fe import fe_receptance_within, outline_mesh, refined_at
 from scene2hap import ModalPlate, Outline, Plate, materials
+from scene2hap.propagation.bodies.lattice_body import lattice_body
 from scene2hap.propagation.domain import ThinPlateWarning
 from scene2hap.propagation.lattice.bending_lattice import aligned, bending_lattice, lines_of, of_size_one, outline_of
-from scene2hap.propagation.lattice.lattice_body import lattice_body
 from scene2hap.propagation.lattice.lattice_modes import _modes_up_to
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 

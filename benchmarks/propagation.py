@@ -32,10 +32,9 @@ from scene2hap import (
     materials,
     plate_modes,
 )
-from scene2hap.propagation import infinite_plate
-from scene2hap.propagation.coupled import rigid
+from scene2hap.propagation.bodies import infinite_body, modal_body, rigid
 from scene2hap.propagation.domain import ThinPlateWarning
-from scene2hap.propagation.modal import modal_body, modes
+from scene2hap.propagation.modal import modes
 from scene2hap.propagation.protocol import ExpectantField
 from scene2hap.scene.pose import Pose
 
@@ -98,7 +97,7 @@ def clear_caches() -> None:
     """Clear the caches of plates."""
     for cached in (modes.modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact):
         cached.cache_clear()
-    infinite_plate._table.cache_clear()
+    infinite_body._table.cache_clear()
 
 
 def preparing(model: PropagationModel) -> tuple[float, float]:

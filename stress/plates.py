@@ -57,10 +57,11 @@ from scene2hap import (
     Plate,
 )
 from scene2hap.errors import Scene2HapError
+from scene2hap.propagation.bodies import lattice_body, modal_body
 from scene2hap.propagation.domain import SlowPlateWarning, ThinPlateWarning
-from scene2hap.propagation.lattice import bending_lattice, lattice_body, lattice_modes
+from scene2hap.propagation.lattice import bending_lattice, lattice_modes
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
-from scene2hap.propagation.modal import modal_body, modes
+from scene2hap.propagation.modal import modes
 from scene2hap.propagation.modal.modes import first_bending_hz, n_rigid_motions
 
 MODELS: dict[str, Any] = {

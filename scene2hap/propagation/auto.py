@@ -31,10 +31,10 @@ from scene2hap.propagation.auto_level import peak_level_db
 from scene2hap.propagation.auto_rungs import Choice, Situation, body_of
 from scene2hap.propagation.bands.sampling import SPACING
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.coupling import ElasticBody
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.substructuring import Assembly, CoupledField, assemble
 from scene2hap.propagation.domain import OutsideDomain, floored_loss, off_zero
+from scene2hap.propagation.elastic_body import ElasticBody
 from scene2hap.propagation.physical_model import PhysicalModel
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation

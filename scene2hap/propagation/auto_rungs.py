@@ -21,12 +21,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from scene2hap.propagation.coupled.coupling import ElasticBody
-from scene2hap.propagation.coupled.rigid import RigidMotion
-from scene2hap.propagation.infinite_plate import InfiniteBody
+from scene2hap.propagation.bodies.infinite_body import InfiniteBody
+from scene2hap.propagation.bodies.modal_body import modal_body
+from scene2hap.propagation.bodies.rigid import RigidMotion
+from scene2hap.propagation.elastic_body import ElasticBody
 from scene2hap.propagation.lattice.lattice_modes import lowest_frequencies_hz
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
-from scene2hap.propagation.modal.modal_body import modal_body
 from scene2hap.propagation.modal.modes import FINE, Fineness, beam_hz, first_bending_hz
 from scene2hap.propagation.plate import Plate
 

@@ -13,8 +13,8 @@ from functools import update_wrapper
 from typing import Generic, ParamSpec, TypeVar
 from weakref import WeakValueDictionary
 
+from scene2hap.common.byte_bounded_lru import Sized
 from scene2hap.common.forks import lock_of_process
-from scene2hap.propagation.coupled.byte_bounded_lru import Sized
 
 KEPT_BYTES = 128 * 2**20
 """Size of the newest results of a function, which stay cached although nothing refers to them."""

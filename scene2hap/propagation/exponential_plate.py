@@ -25,7 +25,8 @@ from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.band_rms import BandRms, band_rms
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_thin
-from scene2hap.propagation.paths.live_law import GammaAt, GammaOver, LiveLaw, LivePaths
+from scene2hap.propagation.paths.gamma import Gamma, GammaAt, GammaOver, floored
+from scene2hap.propagation.paths.live_law import LiveLaw, LivePaths
 from scene2hap.propagation.paths.prepared_paths import Arrivals, arrivals_at, cheapest_arrivals
 from scene2hap.propagation.plate import Plate, require_plate
 from scene2hap.propagation.points import as_points
@@ -102,9 +103,7 @@ class ExponentialPlate:
         require_input(network, excitations, bands)
         costs = PathCosts.of(self, network.bodies, network.contacts)
         source_ids = tuple(excitation.source_id for excitation in excitations)
-        arrivals = cheapest_arrivals(
-            costs.price_per_m, network.contacts, costs.crossing_cost, source_ids, self.max_hops
-        )
+        arrivals = cheapest_arrivals(costs.cost_per_m, network.contacts, costs.crossing_cost, source_ids, self.max_hops)
         return self.over(arrivals, network, excitations, bands)
 
     def over(
@@ -114,10 +113,10 @@ class ExponentialPlate:
 
         Raises, warns: see `prepare`.
         """
-        price = self._prices(network.bodies, excitations, bands)
+        cost_per_m = self._costs_per_m(network.bodies, excitations, bands)
         source_ids = tuple(excitation.source_id for excitation in excitations)
         dominant = np.array([self.frequency_hz(item) for item in excitations])
-        return ExponentialField(source_ids, arrivals, price, bands, dominant, self._floor)
+        return ExponentialField(source_ids, arrivals, cost_per_m, bands, dominant, self._floor)
 
     def live(
         self, graph: ContactGraph, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands
@@ -127,26 +126,28 @@ class ExponentialPlate:
         Raises, warns: see `prepare`; for all bodies at once.
         """
         source_ids = tuple(excitation.source_id for excitation in excitations)
-        prices = self._prices(bodies, excitations, bands)
-        paths = LivePaths(graph, prices, self.crossing_cost, source_ids, self.max_hops)
-        gamma: GammaAt | GammaOver
+        costs_per_m = self._costs_per_m(bodies, excitations, bands)
+        paths = LivePaths(graph, costs_per_m, self.crossing_cost, source_ids, self.max_hops)
+        gamma: Gamma
         if bands.kind == "dominant":
             gamma = GammaAt(np.array([self.frequency_hz(item) for item in excitations]))
         else:
             gamma = GammaOver(BandRms(bands.edges_hz))
         return LiveLaw(paths, source_ids, gamma, self._floor)
 
-    def _prices(self, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands) -> dict[str, float]:
+    def _costs_per_m(
+        self, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands
+    ) -> dict[str, float]:
         """Return the cost of a metre through each body, after checking that thin-plate theory holds for it."""
         if self.outside_domain != "ignore":
             top_hz = max(bands.edges_hz, default=max((self.frequency_hz(item) for item in excitations), default=0.0))
             for object_id, body in bodies.items():
                 if isinstance(body, Plate):
                     check_thin(object_id, body, top_hz, self.outside_domain)
-        return {object_id: price_per_m(body) for object_id, body in bodies.items()}
+        return {object_id: cost_per_m(body) for object_id, body in bodies.items()}
 
     def crossing_cost(self, weight: float) -> float:
-        """Return the cost of crossing a contact of a weight (0..1), beside `price_per_m` [s^(1/2)]; infinite at 0."""
+        """Return the cost of crossing a contact of a weight (0..1), beside `cost_per_m` [s^(1/2)]; infinite at 0."""
         loss = self.interface_loss_db * math.log(10) / 20
         return (loss - math.log(weight)) / math.sqrt(2 * math.pi * REFERENCE_HZ) if weight > 0 else math.inf
 
@@ -159,15 +160,15 @@ class ExponentialPlate:
         return excitation.frequency_raw_hz if self.frequency == "raw" else excitation.frequency_tactile_hz
 
 
-def price_per_m(body: Body) -> float:
+def cost_per_m(body: Body) -> float:
     """Return the cost of a metre through a body, k / sqrt(omega) [s^(1/2)/m]; 0 for a rigid body."""
     return body.wavenumber_per_root_omega if isinstance(body, Plate) else 0.0
 
 
 class PathCosts(NamedTuple):
-    """The paper's law as costs for a search of paths: prices, crossing costs and hops of `cheapest_arrivals`."""
+    """The paper's law as costs for a search of paths; see `cheapest_arrivals`."""
 
-    price_per_m: dict[str, float]
+    cost_per_m: dict[str, float]
     crossing_cost: list[float]
     max_hops: int | None
 
@@ -175,8 +176,8 @@ class PathCosts(NamedTuple):
     def of(cls, model: object, bodies: Mapping[str, Body], contacts: Sequence[Contact]) -> PathCosts:
         """The costs of `model` if it is an `ExponentialPlate`; those of the default one for other models."""
         law = model if isinstance(model, ExponentialPlate) else ExponentialPlate()
-        price = {object_id: price_per_m(body) for object_id, body in bodies.items()}
-        return cls(price, [law.crossing_cost(contact.weight) for contact in contacts], law.max_hops)
+        costs_per_m = {object_id: cost_per_m(body) for object_id, body in bodies.items()}
+        return cls(costs_per_m, [law.crossing_cost(contact.weight) for contact in contacts], law.max_hops)
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,16 +186,14 @@ class ExponentialField:
 
     source_ids: tuple[str, ...]
     arrivals: Mapping[str, Arrivals]
-    price_per_m: Mapping[str, float]
+    cost_per_m: Mapping[str, float]
     bands: Bands
     dominant_hz: NDArray[np.float64]
     floor: float = 0.0
 
     def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
         """Gamma at points of one object; see `PropagationField`."""
-        length = arrivals_at(self.arrivals, self.price_per_m, self.source_ids, object_id, points_m)
-        if self.bands.kind == "dominant":
-            gamma: NDArray[np.float64] = np.exp(-length * np.sqrt(2 * math.pi * self.dominant_hz))[:, :, None]
-        else:
-            gamma = band_rms(length, self.bands.widths_hz())
-        return np.maximum(gamma, self.floor * np.isfinite(length)[:, :, None]) if self.floor else gamma
+        length = arrivals_at(self.arrivals, self.cost_per_m, self.source_ids, object_id, points_m)
+        is_dominant = self.bands.kind == "dominant"
+        gamma = GammaAt(self.dominant_hz)(length) if is_dominant else band_rms(length, self.bands.widths_hz())
+        return floored(gamma, length, self.floor)

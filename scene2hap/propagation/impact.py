@@ -29,8 +29,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.materials import Material
+from scene2hap.propagation.bodies.rigid import is_too_thick
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.rigid import is_too_thick
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body
 

@@ -23,7 +23,7 @@ TouchedPoint = tuple[str, tuple[float, float, float]]
 """An object, and a point in the world on or near it [m]."""
 
 
-Prices = list[list[float]]
+CostsByHand = list[list[float]]
 """For each hand, the cost of the cheapest path from each source: 0 on the source itself, infinite without a path."""
 
 
@@ -50,16 +50,16 @@ class LiveField(Protocol):
 
 
 @runtime_checkable
-class PricedField(LiveField, Protocol):
+class PathCostField(LiveField, Protocol):
     """A live field whose gains fall as the cost of a path rises, so that cost alone shows which sources are too faint.
-    `strongest(hands)` is `at(prices(hands))`."""
+    `strongest(hands)` is `at(path_costs(hands))`."""
 
-    def prices(
+    def path_costs(
         self,
         hands: Sequence[Sequence[TouchedPoint]],
         limits: Sequence[float] | None = None,
         among: Sequence[Collection[int]] | None = None,
-    ) -> Prices:
+    ) -> CostsByHand:
         """Cost of each source at each hand: the least over the points that the hand touches.
 
         Parameters: limits : for each source, the highest cost of interest; higher ones may be returned as infinite;
@@ -68,7 +68,7 @@ class PricedField(LiveField, Protocol):
         """
         ...
 
-    def at(self, prices: Prices, columns: Sequence[int] | None = None) -> NDArray[np.float64]:
+    def at(self, costs: CostsByHand, columns: Sequence[int] | None = None) -> NDArray[np.float64]:
         """The response at given costs, for the sources in `columns`, None for all; otherwise see `strongest`."""
         ...
 

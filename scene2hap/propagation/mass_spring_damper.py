@@ -26,14 +26,14 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ConfigError, ModelDomainError
+from scene2hap.propagation.bodies.infinite_body import InfiniteBody
+from scene2hap.propagation.bodies.lattice_body import lattice_body
+from scene2hap.propagation.bodies.split_body import SplitBody
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.coupling import ElasticBody
 from scene2hap.propagation.coupled.hand import Hand
-from scene2hap.propagation.coupled.split_body import SplitBody
 from scene2hap.propagation.domain import OutsideDomain, as_frequencies, floored_loss, off_zero, warn_if_thick
-from scene2hap.propagation.infinite_plate import InfiniteBody
+from scene2hap.propagation.elastic_body import ElasticBody
 from scene2hap.propagation.lattice.bending_lattice import LONGEST, MOST_NODES, n_nodes_of, narrow_side_m
-from scene2hap.propagation.lattice.lattice_body import lattice_body
 from scene2hap.propagation.lattice.lattice_modes import (
     LatticeModes,
     is_too_much,

@@ -21,11 +21,11 @@ from numpy.typing import NDArray
 
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ModelDomainError
+from scene2hap.propagation.bodies.modal_body import modal_body
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.coupling import ElasticBody
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.domain import OutsideDomain, floored_loss, off_zero
-from scene2hap.propagation.modal.modal_body import modal_body
+from scene2hap.propagation.elastic_body import ElasticBody
 from scene2hap.propagation.modal.modes import MARGIN, plate_modes
 from scene2hap.propagation.modal.near_field import NearField
 from scene2hap.propagation.modal.ritz import products

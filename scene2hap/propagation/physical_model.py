@@ -14,10 +14,10 @@ from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw, checked_law
-from scene2hap.propagation.coupled.coupling import ElasticBody
 from scene2hap.propagation.coupled.hand import Hand, checked_hand
 from scene2hap.propagation.coupled.substructuring import CoupledField, prepare_coupled
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, check_choice, warn_if_thick
+from scene2hap.propagation.elastic_body import ElasticBody
 from scene2hap.propagation.modal.modes import points_on, receptance_frequencies
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation

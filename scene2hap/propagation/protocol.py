@@ -25,8 +25,8 @@ from scene2hap.scene.pose import Pose
 
 if TYPE_CHECKING:
     from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-    from scene2hap.propagation.coupled.coupling import ElasticBody
     from scene2hap.propagation.coupled.hand import Hand
+    from scene2hap.propagation.elastic_body import ElasticBody
 
 Body = Plate | RigidBody
 

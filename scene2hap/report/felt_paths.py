@@ -52,7 +52,7 @@ class ScenePaths:
         if law not in self._traced:
             costs = PathCosts.of(law, self._bodies, self.contacts)
             self._traced[law] = TracedPaths(
-                costs.price_per_m, self.contacts, costs.crossing_cost, self._sources, costs.max_hops
+                costs.cost_per_m, self.contacts, costs.crossing_cost, self._sources, costs.max_hops
             )
         return self._traced[law]
 

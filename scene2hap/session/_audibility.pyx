@@ -67,25 +67,25 @@ cdef bint is_below(
     return felt < least
 
 
-def within(list prices, list cutoff, list sought):
+def within(list costs, list cutoff, list sought):
     cdef Py_ssize_t n = len(cutoff), n_beyond = 0, i, x
-    cdef double price, limit
+    cdef double cost, limit
     cdef list row
-    columns, each = [], [[] for _ in prices]
+    columns, each = [], [[] for _ in costs]
     for x in range(n):
         limit = cutoff[x]
         is_near = False
-        for i in range(len(prices)):
-            row = prices[i]
-            price = row[x]
-            if price <= limit:
+        for i in range(len(costs)):
+            row = costs[i]
+            cost = row[x]
+            if cost <= limit:
                 is_near = True
             elif x in sought[i]:
                 n_beyond += 1
         if is_near:
             columns.append(x)
-            for i in range(len(prices)):
-                row = prices[i]
-                price = row[x]
-                (<list>each[i]).append(price if price <= limit else INFINITY)
+            for i in range(len(costs)):
+                row = costs[i]
+                cost = row[x]
+                (<list>each[i]).append(cost if cost <= limit else INFINITY)
     return columns, each, n_beyond

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
-from scene2hap.propagation.live import PricedField, Prices
+from scene2hap.propagation.live import CostsByHand, PathCostField
 from scene2hap.propagation.protocol import Excitation, checked_gains
 from scene2hap.session.config import SkipConfig
 from scene2hap.session.frame import Counts
@@ -35,7 +35,7 @@ NOWHERE = -1.0
 """Cut-off of a source that is not felt even on itself."""
 
 # Costs in steps of 6 %, at which gains fall from 1 to less than exp(-700) for any band between 8 Hz and 1 MHz.
-_PRICES = np.concatenate([[0.0], np.geomspace(1e-4, 100.0, 240)])
+_COSTS = np.concatenate([[0.0], np.geomspace(1e-4, 100.0, 240)])
 
 
 class Audibility:
@@ -88,7 +88,7 @@ class CutoffCost:
     Raises: ModelDomainError: the field returns another shape.
     """
 
-    def __init__(self, field: PricedField, audibility: Audibility, excitations: Sequence[Excitation]) -> None:
+    def __init__(self, field: PathCostField, audibility: Audibility, excitations: Sequence[Excitation]) -> None:
         n_bands = audibility.shape[1]
         firsts: dict[Hashable, int] = {}
         keys = [
@@ -97,8 +97,8 @@ class CutoffCost:
         ]
         self._column = np.array([firsts.setdefault(key, len(firsts)) for key in keys], dtype=np.intp)
         columns = np.unique(self._column, return_index=True)[1].tolist()
-        everything = field.at([[price] * len(columns) for price in _PRICES.tolist()], columns)
-        gains = checked_gains(everything, (len(_PRICES), len(columns), n_bands)).astype(np.float32)
+        everything = field.at([[cost] * len(columns) for cost in _COSTS.tolist()], columns)
+        gains = checked_gains(everything, (len(_COSTS), len(columns), n_bands)).astype(np.float32)
         self._felt, self._least_felt = _falling(audibility.felt(gains, columns)), audibility.least_felt
         self._arrives = _falling(gains.max(axis=2, initial=0.0))
 
@@ -150,17 +150,17 @@ def sifted(
 
 @compiled
 def within(
-    prices: Prices, cutoff: Sequence[float], sought: Sequence[Set[int]]
+    costs: CostsByHand, cutoff: Sequence[float], sought: Sequence[Set[int]]
 ) -> tuple[list[int], list[list[float]], int]:
     """Return the sources within their cut-off in any row: their ascending columns, their costs (infinite beyond the
     cut-off), and the number of sought sources beyond their cut-off."""
     worth, n_beyond = set[int](), 0
-    for row, among in zip(prices, sought, strict=True):
-        near = {x for x, price in enumerate(row) if price <= cutoff[x]}
+    for row, among in zip(costs, sought, strict=True):
+        near = {x for x, cost in enumerate(row) if cost <= cutoff[x]}
         n_beyond += len(among - near)
         worth |= near
     columns = sorted(worth)
-    return columns, [[row[x] if row[x] <= cutoff[x] else math.inf for x in columns] for row in prices], n_beyond
+    return columns, [[row[x] if row[x] <= cutoff[x] else math.inf for x in columns] for row in costs], n_beyond
 
 
 def _falling(table: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -171,5 +171,5 @@ def _falling(table: NDArray[np.float32]) -> NDArray[np.float32]:
 
 def _last_of(is_enough: NDArray[np.bool_]) -> list[float]:
     """The first cost of each source at which `is_enough` (n_costs, n_sources) is false."""
-    beyond = [NOWHERE, *_PRICES[1:].tolist(), math.inf]
+    beyond = [NOWHERE, *_COSTS[1:].tolist(), math.inf]
     return [beyond[n] for n in np.count_nonzero(is_enough, axis=0).tolist()]

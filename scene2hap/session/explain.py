@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from scene2hap.common.counted import first_of
 from scene2hap.common.html_tables import html_table
 from scene2hap.propagation.exponential_plate import ExponentialPlate, PathCosts
-from scene2hap.propagation.live import PricedField
+from scene2hap.propagation.live import PathCostField
 from scene2hap.propagation.paths.traced_paths import Leg, PathsToPoint, Point
 from scene2hap.propagation.protocol import Carrier, CarryingField
 from scene2hap.session.audibility import NOWHERE
@@ -177,7 +177,7 @@ class Explainer:
         self._state, self._sources, self._model, self._gains, self._levels = state, sources, model, gains, levels
         self._column = {source_id: column for column, source_id in enumerate(sources.ids)}
         self._carrying = field if isinstance(field, CarryingField) else None
-        self._law = field if isinstance(field, PricedField) and isinstance(model, ExponentialPlate) else None
+        self._law = field if isinstance(field, PathCostField) and isinstance(model, ExponentialPlate) else None
         self._paths: dict[tuple[str, Point], PathsToPoint] = {}
 
     def explain(
@@ -287,7 +287,7 @@ class Explainer:
             contacts = self._state.graph.contacts
             costs = PathCosts.of(self._model, self._state.bodies, contacts)
             self._paths[on, point_m] = PathsToPoint(
-                costs.price_per_m, contacts, costs.crossing_cost, costs.max_hops, on, point_m
+                costs.cost_per_m, contacts, costs.crossing_cost, costs.max_hops, on, point_m
             )
         return self._paths[on, point_m]
 

@@ -67,7 +67,7 @@ class HapticFrame:
     def gains(self) -> Gains:
         """Gains (n_hands, n_sources, n_bands) float32 [-], 0 below -140 dB. Read-only: later frames may share them.
 
-        Models that report path cost (`propagation.live.PricedField`) compute them on first access, since most games
+        Models that report path cost (`propagation.live.PathCostField`) compute them on first access, since most games
         never read them. If a contact has changed by then, only the gains of mixed sources are computed, and the others
         are 0. The first access must be in the thread that updates.
         """

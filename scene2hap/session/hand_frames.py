@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.contact.graph import ContactChange
-from scene2hap.propagation.live import LiveField, PricedField
+from scene2hap.propagation.live import LiveField, PathCostField
 from scene2hap.propagation.protocol import Excitation
 from scene2hap.session.audibility import SILENT, Audibility, CutoffCost
 from scene2hap.session.config import SessionConfig
@@ -47,7 +47,7 @@ class HandFrames:
         self._personal: PersonalGains | None = None
         self._audibility: Audibility | None = None
         self._loudness: Loudness | None = None
-        self._cutoff: tuple[PricedField, CutoffCost] | None = None
+        self._cutoff: tuple[PathCostField, CutoffCost] | None = None
         self._felt: Felt = {}
         self._frame = self.silence()
         self._is_fresh = False
@@ -261,7 +261,7 @@ class HandFrames:
         cutoff = self._cutoff_of(field) if wants_near else None
         if cutoff is None:
             return AllGains(gains, loudness, skip, counts)
-        assert isinstance(field, PricedField)
+        assert isinstance(field, PathCostField)
         return PrunedGains(
             gains, field, cutoff, loudness, counts, skips_silent_bands=skip.silent_bands, graph=self._state.graph
         )
@@ -276,7 +276,7 @@ class HandFrames:
     def _cutoff_of(self, field: LiveField) -> CutoffCost | None:
         """The cut-offs of the sources in a field; None unless it reports path cost."""
         # Live fields only: a cost query of a prepared field would take longer than computing its gains.
-        if not (isinstance(self.keeper, LiveKeeper) and isinstance(field, PricedField)):
+        if not (isinstance(self.keeper, LiveKeeper) and isinstance(field, PathCostField)):
             return None
         audibility = self._known_audibility()
         if self._cutoff is None or self._cutoff[0] is not field:

@@ -1,8 +1,8 @@
 """Gains of every hand from its touches, without sources that are too weak to be felt.
 
-A field is queried for all sources, and weak ones are left out afterwards. Models that report path cost (`PricedField`)
-are queried for cost only: sources beyond their cut-off are left out before their gains are computed. In a furnished
-room these are most sources.
+A field is queried for all sources, and weak ones are left out afterwards. Models that report path cost
+(`PathCostField`) are queried for cost only: sources beyond their cut-off are left out before their gains are computed.
+In a furnished room these are most sources.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scene2hap.compiled import compiled
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.live import LiveField, PricedField, Prices, TouchedPoint
+from scene2hap.propagation.live import CostsByHand, LiveField, PathCostField, TouchedPoint
 from scene2hap.propagation.protocol import checked_gains
 from scene2hap.scene.scene_warning import warn_of
 from scene2hap.session.audibility import SILENT, Audibility, CutoffCost, within
@@ -62,40 +62,40 @@ class TouchGains:
         self._limit = GREATEST if limit is None else min(limit, GREATEST)
         self.may_be_capped: bool = self._limit < max(1.0, field.most)
 
-    def prices(
+    def path_costs(
         self,
-        field: PricedField,
+        field: PathCostField,
         hands: Sequence[Sequence[Touch]],
         queries: Sequence[HandQuery],
         limits: Sequence[float],
-    ) -> Prices:
+    ) -> CostsByHand:
         """The path cost of each source at each hand up to its limit; 0 on a source.
 
         Parameters: queries : the result of `query` for the touches of each hand.
         Raises: ModelDomainError: the field returns too many or too few costs.
         """
-        prices = field.prices([points for points, _ in queries], limits, [among for _, among in queries])
-        n_costs, n_sources = [len(row) for row in prices], self._shape[0]
+        costs = field.path_costs([points for points, _ in queries], limits, [among for _, among in queries])
+        n_costs, n_sources = [len(row) for row in costs], self._shape[0]
         if n_costs != [n_sources] * len(hands):
             raise ModelDomainError(
-                f"the model's field returned {n_costs} prices for {len(hands)} hands; it must return one for each "
+                f"the model's field returned {n_costs} path costs for {len(hands)} hands; it must return one for each "
                 f"source at each hand, [{n_sources}] * {len(hands)}."
             )
-        for row, touches in zip(prices, hands, strict=True):
+        for row, touches in zip(costs, hands, strict=True):
             for touch in touches:
                 if touch.object_id in self._own:
                     row[self._own[touch.object_id]] = 0.0
-        return prices
+        return costs
 
     def of(self, hands: Sequence[Sequence[Touch]], limits: Sequence[float] | None = None) -> NDArray[np.float64]:
         """Gains (n_hands, n_sources, n_bands) [-], the largest over each hand's touches, capped; 1 or more on a source.
 
-        Parameters: limits : for each source, the highest path cost of interest; a `PricedField` may give 0 beyond it.
+        Parameters: limits : for each source, the highest path cost of interest; a `PathCostField` may give 0 beyond it.
         Raises: ModelDomainError: the field returns another shape.
         """
         queries = [self.query(touches) for touches in hands]
-        if limits is not None and isinstance(self._field, PricedField):
-            gains = self.at(self._field, self.prices(self._field, hands, queries, limits))
+        if limits is not None and isinstance(self._field, PathCostField):
+            gains = self.at(self._field, self.path_costs(self._field, hands, queries, limits))
         else:
             gains = checked_gains(self._field.strongest([points for points, _ in queries]), (len(hands), *self._shape))
         for i, touches in enumerate(hands):
@@ -125,11 +125,11 @@ class TouchGains:
             "of at least 0, not in dB. scene2hap.testing.check_propagation_model(model) finds more."
         )
 
-    def at(self, field: PricedField, prices: Prices, columns: Sequence[int] | None = None) -> NDArray[np.float64]:
-        """Gains (n_hands, n_columns, n_bands) at given path costs, see `PricedField`. Raises as `of`."""
+    def at(self, field: PathCostField, costs: CostsByHand, columns: Sequence[int] | None = None) -> NDArray[np.float64]:
+        """Gains (n_hands, n_columns, n_bands) at given path costs, see `PathCostField`. Raises as `of`."""
         n_sources, n_bands = self._shape
         n_columns = n_sources if columns is None else len(columns)
-        return checked_gains(field.at(prices, columns), (len(prices), n_columns, n_bands))
+        return checked_gains(field.at(costs, columns), (len(costs), n_columns, n_bands))
 
     def query(self, touches: Sequence[Touch]) -> HandQuery:
         """The touches of a hand that some source reaches, and the columns of these sources. Counts the others."""
@@ -219,7 +219,7 @@ class PrunedGains:
     def __init__(
         self,
         gains: TouchGains,
-        field: PricedField,
+        field: PathCostField,
         cutoff: CutoffCost,
         loudness: Loudness,
         counts: Counts,
@@ -238,8 +238,8 @@ class PrunedGains:
         gains, cutoff, on = self._gains, self._cutoff, self._on
         touches = list(felt.values())
         queries = [gains.query(touched) for touched in touches]
-        prices = gains.prices(self._field, touches, queries, cutoff)
-        columns, each, n_beyond = within(prices, cutoff, [among & on for _, among in queries])
+        costs = gains.path_costs(self._field, touches, queries, cutoff)
+        columns, each, n_beyond = within(costs, cutoff, [among & on for _, among in queries])
         self._counts.below_threshold += n_beyond
         self._counts.idle_hands += n_hands - len(felt)
         mixed = self._loudness.applied(gains.at(self._field, each, columns), columns)
@@ -250,18 +250,18 @@ class PrunedGains:
 
         def full() -> Gains:
             if self._graph.version == version:
-                everything = gains.prices(self._field, touches, queries, self._arrives)
+                everything = gains.path_costs(self._field, touches, queries, self._arrives)
             else:
                 # The contacts of that frame are gone, so only the costs that were computed then are valid.
-                everything = _without(prices, cutoff)
+                everything = _without(costs, cutoff)
             return _reported(self._loudness.applied(gains.at(self._field, everything)), n_hands, felt)
 
         return HandGains(full, _among(mixed, n_hands, felt), columns)
 
 
-def _without(prices: Prices, limits: Sequence[float]) -> Prices:
+def _without(costs: CostsByHand, limits: Sequence[float]) -> CostsByHand:
     """Copy path costs; those beyond their limits become infinite."""
-    return [[x if x <= limit else math.inf for x, limit in zip(row, limits, strict=True)] for row in prices]
+    return [[x if x <= limit else math.inf for x, limit in zip(row, limits, strict=True)] for row in costs]
 
 
 def _reported(given: Gains, n_hands: int, felt: Felt) -> Gains:

@@ -24,10 +24,10 @@ from scene2hap import (
     RigidBody,
     materials,
 )
+from scene2hap.propagation.bodies.rigid import RigidMotion
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import couple
 from scene2hap.propagation.coupled.joints import joints_of
-from scene2hap.propagation.coupled.rigid import RigidMotion
 from scene2hap.propagation.coupled.substructuring import prepare_coupled
 from scene2hap.propagation.domain import ThinPlateWarning
 

@@ -28,9 +28,9 @@ from scene2hap import (
     materials,
 )
 from scene2hap.propagation.auto_rungs import Choice
+from scene2hap.propagation.bodies.inclined_body import inclined
 from scene2hap.propagation.coupled.contact_stiffness import STANDARD_GRAVITY_M_S2, ContactLaw
 from scene2hap.propagation.coupled.joints import joints_of
-from scene2hap.propagation.modal.inclined_body import inclined
 from scene2hap.propagation.protocol import Body
 from scene2hap.scene.surface.outline import Outline
 

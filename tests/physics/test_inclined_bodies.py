@@ -25,13 +25,13 @@ from scene2hap import (
 )
 from scene2hap.propagation.bands.band_shapes import CLOSE, band_gains
 from scene2hap.propagation.bands.sampling import Sampling
+from scene2hap.propagation.bodies.inclined_body import InclinedShapes, inclined, inclined_box
+from scene2hap.propagation.bodies.rigid import RigidMotion
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import inclined_in
 from scene2hap.propagation.coupled.joints import joints_of
-from scene2hap.propagation.coupled.rigid import RigidMotion
-from scene2hap.propagation.coupled.solved_object import contracted
+from scene2hap.propagation.elastic_body import contracted
 from scene2hap.propagation.modal.in_plane import InPlaneModes
-from scene2hap.propagation.modal.inclined_body import InclinedShapes, inclined, inclined_box
 
 OAK, STEEL = materials.lookup("oak"), materials.lookup("steel")
 UPRIGHT = (0.5**0.5, 0.0, 0.0, 0.5**0.5)

@@ -10,8 +10,9 @@ from hypothesis import given, settings, strategies as st
 
 from scene2hap import InfinitePlate, Material, Plate
 from scene2hap.errors import ModelDomainError
+from scene2hap.propagation.bodies.infinite_body import spreading
 from scene2hap.propagation.domain import ThinPlateWarning
-from scene2hap.propagation.infinite_plate import point_mobility_s_kg, spreading
+from scene2hap.propagation.infinite_plate import point_mobility_s_kg
 
 LOSSLESS = Material("test", 1000.0, 1e10, 0.3, loss_factor=0.0)
 PLATE = Plate(2.0, 1.0, 0.01, LOSSLESS)

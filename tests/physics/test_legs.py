@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, InfinitePlate, ModalPlate, Plate, Pose, materials
+from scene2hap.propagation.bodies.legged_body import LeggedShapes, legged
+from scene2hap.propagation.bodies.rigid import RigidMotion
 from scene2hap.propagation.coupled.coupling import Joint, couple
 from scene2hap.propagation.coupled.joints import legs_of
-from scene2hap.propagation.coupled.legged_body import LeggedShapes, legged
-from scene2hap.propagation.coupled.rigid import RigidMotion
-from scene2hap.propagation.coupled.solved_object import contracted
+from scene2hap.propagation.elastic_body import contracted
 
 OAK = materials.lookup("oak")
 TOP = Plate(1.2, 0.7, 0.02, OAK)

@@ -27,11 +27,12 @@ from scene2hap import (
     materials,
 )
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.coupled import coupling, many_joints
+from scene2hap.propagation.bodies import many_joints
+from scene2hap.propagation.bodies.lattice_body import lattice_body
+from scene2hap.propagation.bodies.modal_body import modal_body
+from scene2hap.propagation.bodies.rigid import RigidMotion
+from scene2hap.propagation.coupled import coupling
 from scene2hap.propagation.coupled.coupling import Joint, couple
-from scene2hap.propagation.coupled.rigid import RigidMotion
-from scene2hap.propagation.lattice.lattice_body import lattice_body
-from scene2hap.propagation.modal.modal_body import modal_body
 
 FLOOR = Plate(6.0, 5.0, 0.1, materials.lookup("wood"))
 F_HZ = np.geomspace(40.0, 200.0, 30)

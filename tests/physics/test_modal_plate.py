@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from plate_fe import fe_receptance
 from scene2hap import InfinitePlate, Material, ModalPlate, Plate, materials, plate_modes
+from scene2hap.propagation.bodies.modal_body import ModalBody
 from scene2hap.propagation.modal import modes as modes_module
-from scene2hap.propagation.modal.modal_body import ModalBody
 from scene2hap.propagation.modal.modes import FINE
 from scene2hap.propagation.modal.near_field import beyond_cutoff, beyond_cutoff_of_square, table
 

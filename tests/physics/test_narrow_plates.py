@@ -11,8 +11,8 @@ from hypothesis import HealthCheck, given, settings, strategies as st
 from scene2hap import ModalPlate
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.auto_rungs import FINENESS
+from scene2hap.propagation.bodies.modal_body import modal_body
 from scene2hap.propagation.domain import SlowPlateWarning
-from scene2hap.propagation.modal.modal_body import modal_body
 from scene2hap.propagation.modal.modes import QUICK_BLOCK, largest_block
 from scene2hap.propagation.plate import Plate
 

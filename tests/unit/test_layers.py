@@ -76,6 +76,21 @@ def test_imports_point_down() -> None:
     assert not wrong
 
 
+def test_packages_within_a_package_import_each_other_in_one_direction() -> None:
+    """Below the top level too: `propagation.bodies` does not know what `propagation.coupled` makes of bodies."""
+    graph: nx.DiGraph[str] = nx.DiGraph()
+    for path in SOURCES:
+        here = path.relative_to(PACKAGE.parent).parent.parts
+        for name in imports_of(path):
+            there = name.split(".")
+            depth = next((i for i, pair in enumerate(zip(here, there, strict=False)) if len(set(pair)) > 1), None)
+            if depth is not None and (PACKAGE.parent / Path(*there[: depth + 1])).is_dir():
+                graph.add_edge(".".join(here[: depth + 1]), ".".join(there[: depth + 1]))
+    assert graph.has_edge("scene2hap.propagation.coupled", "scene2hap.propagation.bands")
+    circles = [group for group in nx.strongly_connected_components(graph) if len(group) > 1]
+    assert not circles
+
+
 def test_the_playing_side_reaches_no_network() -> None:
     playing = [path for path in SOURCES if package_of(path) in PLAY_SIDE]
     assert playing

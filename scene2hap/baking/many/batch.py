@@ -32,9 +32,9 @@ from scene2hap.llm.backends.openai import OpenAIBackend
 from scene2hap.llm.batch import AnswerPending, BatchBackend, BatchFolder, BatchRow, BatchService, BatchStatus
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.run_coroutine import run_waiting
+from scene2hap.llm.stack import Wrapper
 from scene2hap.llm.wrappers import CacheBackend, RepairBackend, identity, innermost
 from scene2hap.llm.wrappers.prices import price_list
-from scene2hap.llm.wrappers.stack import Wrapper
 
 Scenes = Iterable[str | os.PathLike[str]]
 Config = BakeConfig | Mapping[str, Any] | str | os.PathLike[str] | None

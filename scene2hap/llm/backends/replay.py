@@ -24,7 +24,7 @@ from scene2hap.errors import BadAnswer, ConfigError, ReplayMiss, reason_of, unwr
 from scene2hap.llm.backends.chat import UnusableAnswer
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.request_key import canonical, part_names, plain, request_key
-from scene2hap.llm.wrappers.stack import Spec, Wrapper, identity
+from scene2hap.llm.stack import Spec, Wrapper, identity
 
 MAX_RECORDING_BYTES = 1 << 28
 """Size of a file of answers (assumed: answers for some 50,000 objects)."""

@@ -10,8 +10,8 @@ from scene2hap.common.calls import clear_construction
 from scene2hap.errors import BackendError, BudgetExceeded, ConfigError
 from scene2hap.llm.backends.chat import UnusableAnswer
 from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.stack import Spec, Wrapper
 from scene2hap.llm.wrappers.prices import Given, Price, PriceList, price_list
-from scene2hap.llm.wrappers.stack import Spec, Wrapper
 
 
 @clear_construction

@@ -24,8 +24,8 @@ from scene2hap.errors import ConfigError, reason_of, unwritable
 from scene2hap.llm.finish_reasons import is_whole
 from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
 from scene2hap.llm.request_key import request_key
+from scene2hap.llm.stack import Spec, Wrapper
 from scene2hap.llm.validation import find_fault
-from scene2hap.llm.wrappers.stack import Spec, Wrapper
 
 
 class _Entry(BaseModel):

@@ -11,8 +11,8 @@ from scene2hap.errors import BadAnswer, ConfigError
 from scene2hap.llm.backends.chat import UnusableAnswer, about as describe, require_answer, unusable
 from scene2hap.llm.json_text import answer_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.stack import Spec, Wrapper
 from scene2hap.llm.validation import Fault, find_fault
-from scene2hap.llm.wrappers.stack import Spec, Wrapper
 
 _LONGEST_QUOTED = 4000
 """Most characters of a bad answer that are sent back (assumed: three times the longest good one)."""

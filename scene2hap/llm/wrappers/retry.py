@@ -10,7 +10,7 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.protocol import LLMReply, LLMRequest
-from scene2hap.llm.wrappers.stack import Spec, Wrapper
+from scene2hap.llm.stack import Spec, Wrapper
 
 FIRST_WAIT_S = 0.5
 LONGEST_WAIT_S = 8.0

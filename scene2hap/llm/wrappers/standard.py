@@ -9,12 +9,12 @@ from typing import cast
 
 from scene2hap.llm import BACKENDS
 from scene2hap.llm.protocol import LLMBackend
+from scene2hap.llm.stack import Spec, Wrapper, is_remote
 from scene2hap.llm.wrappers.budget import BudgetBackend
 from scene2hap.llm.wrappers.cache import CacheBackend
 from scene2hap.llm.wrappers.prices import Given, Price
 from scene2hap.llm.wrappers.repair import RepairBackend
 from scene2hap.llm.wrappers.retry import RetryBackend
-from scene2hap.llm.wrappers.stack import Spec, Wrapper, is_remote
 
 RETRIES = 6
 """Assumed: waits of 0.5, 1, 2, 4, 8 and 8 s are enough for a server to load its model."""

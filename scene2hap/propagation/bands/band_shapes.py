@@ -20,9 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
-from scene2hap.propagation.bands.sampling import Band, Sampling
-from scene2hap.propagation.coupled.object_response import Gains
-from scene2hap.propagation.coupled.response_basis import ResponseBasis
+from scene2hap.propagation.bands.sampling import Band, Gains, Sampling
+from scene2hap.propagation.elastic_body import ResponseBasis
 
 CLOSE = 1e-3
 """Part of each source's motion in a band, over the whole body, that may be lost: 60 dB below the motion."""

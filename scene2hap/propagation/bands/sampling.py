@@ -14,7 +14,7 @@ not depend on the other sources.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import NamedTuple, cast
@@ -44,6 +44,8 @@ Source: Israr, Tan, Reed, Frequency and amplitude discrimination along the kines
 """
 
 Floats = NDArray[np.float64]
+Gains = Callable[[Floats], Floats]
+"""Function from points on a body (n_points, 2) [m] to gains (n_points, n_own, n_bands) of some sources [-]."""
 
 
 class Band(NamedTuple):

@@ -22,7 +22,7 @@ import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,7 @@ from scene2hap.common import checks
 from scene2hap.common.counted import counted
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.coupled.elimination import Element, inverse, solve
+from scene2hap.propagation.elastic_body import ElasticBody
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -42,25 +43,6 @@ MOST_BYTES = 500_000_000
 """Largest memory of one part of a solution. Preparing a field or touching an object takes up to five times as much."""
 FEWEST_AT_ONCE = 4
 """Least number of frequencies in memory at once: `elimination` solves four in the time of one."""
-
-
-class ElasticBody(Protocol):
-    """Interface of a single body that a model provides for coupling."""
-
-    @property
-    def loss_factor(self) -> float:
-        """Smallest loss factor of the resonances [-], infinite without any; it decides how finely bands are sampled."""
-        ...
-
-    def receptance(self, points_m: Floats, forces_m: Floats, frequencies_hz: Floats) -> Complex:
-        """Deflection at points per force at others.
-
-        Parameters: points_m : (n_points, 2), forces_m : (n_forces, 2) [m], in the body's own coordinates, such as from
-        a plate's corner along length and width; frequencies_hz : (n_frequencies,) > 0 [Hz].
-        Returns: (n_frequencies, n_points, n_forces) complex128 [m/N]. If points and forces are the same, it is
-        symmetric, and for a body that gains no energy its imaginary part is negative semidefinite.
-        """
-        ...
 
 
 class Along(NamedTuple):
@@ -122,7 +104,7 @@ def compliances_m_n(joints: Sequence[Joint], frequencies_hz: Floats) -> Complex:
 class Ends:
     """The joints of one body.
 
-    points_m : (n, 2) [m], on the body, or ports (n, 6) of an `InclinedBody` if any joint is not along its normal;
+    points_m : (n, 2) [m], on the body, or ports (n, 6) of a `SpatialBody` if any joint is not along its normal;
     rows : (n,) indices among all joints; signs : (n,) +1 where the body is the joint's a, -1 where it is b, and the
     opposite for `REVERSED`.
     """

@@ -20,9 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.propagation.bands.sampling import Sampling
-from scene2hap.propagation.coupled.coupling import ElasticBody, JointForces
+from scene2hap.propagation.coupled.coupling import JointForces
 from scene2hap.propagation.coupled.hand import Hand
-from scene2hap.propagation.modal.inclined_body import felt_ports
+from scene2hap.propagation.elastic_body import ElasticBody, felt_ports
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]

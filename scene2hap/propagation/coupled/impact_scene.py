@@ -24,10 +24,9 @@ from scene2hap.common.blas_threads import one_blas_thread
 from scene2hap.contact.junction import Pair
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import AROUND
-from scene2hap.propagation.coupled.coupling import ElasticBody
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.hand_load import loaded, stiffness_of
-from scene2hap.propagation.modal.inclined_body import InclinedBody, felt_ports
+from scene2hap.propagation.elastic_body import ElasticBody, felt_ports
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -122,7 +121,8 @@ class StruckScene:
         towards = struck.body.receptance(ports, struck.joints_m, f)
         free = towards[:, :1].transpose(0, 2, 1)
         moved = struck.body.receptance(ports, pushed, f) - towards @ self._forces((struck_id, struck_id), used, free)
-        own = _lengths(self._under_hand(struck_id, ports, towards, moved, used), len(on_it))
+        n = len(on_it)
+        own = _lengths(self._under_hand(struck_id, ports, n, towards, moved, used), n)
         found = [own[:, :1]]
         for touched_id, places in points.items():
             if touched_id == struck_id:
@@ -132,7 +132,8 @@ class StruckScene:
             ports = felt_ports(touched.body, places)
             towards = touched.body.receptance(ports, touched.joints_m, f)
             moved = towards @ self._forces((touched_id, struck_id), used, free)
-            found.append(_lengths(self._under_hand(touched_id, ports, towards, moved, used), len(places)))
+            n = len(places)
+            found.append(_lengths(self._under_hand(touched_id, ports, n, towards, moved, used), n))
         return np.concatenate(found, axis=1) * f[:, None] ** 2
 
     def _forces(self, pair: Pair, used: NDArray[np.intp], free: Complex) -> Complex:
@@ -146,14 +147,14 @@ class StruckScene:
         return forces
 
     def _under_hand(
-        self, object_id: str, ports: Floats, towards: Complex, moved: Complex, used: NDArray[np.intp]
+        self, object_id: str, ports: Floats, n_points: int, towards: Complex, moved: Complex, used: NDArray[np.intp]
     ) -> Complex:
-        """Deflections of ports (n_used, n_ports, 1) with a hand's load on each point alone, as in a model's fields."""
+        """Deflections of the ports of some points (n_used, n_ports, 1) with a hand's load on each point alone, as in a
+        model's fields."""
         if self._hand is None:
             return moved
         f, body, pair = self._frequencies_hz[used], self._bodies[object_id].body, (object_id, object_id)
         stiffness, answer = stiffness_of(self._hand, f), np.empty_like(moved)
-        n_points = len(ports) // (3 if isinstance(body, InclinedBody) else 1)
         for i in range(n_points):
             at = slice(i, None, n_points)
             alone = body.receptance(ports[at], ports[at].copy(), f)

@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.contact.junction import Pair
-from scene2hap.propagation.coupled.coupling import ElasticBody, Joint, JointSystem, ends_of, systems
+from scene2hap.propagation.coupled.coupling import Joint, JointSystem, ends_of, systems
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.impact_scene import IMPACT_BANDS, HeldBody, StruckScene
+from scene2hap.propagation.elastic_body import ElasticBody
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]

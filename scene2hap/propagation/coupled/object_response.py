@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
+from scene2hap.propagation.bands.sampling import Gains
 
 Floats = NDArray[np.float64]
-Gains = Callable[[Floats], Floats]
-"""Function from points on a body (n_points, 2) [m] to gains (n_points, n_own, n_bands) of some sources [-]."""
 
 
 @compiled

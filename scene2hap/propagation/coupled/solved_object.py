@@ -13,26 +13,22 @@ Letters: see `coupling`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.propagation.bands.band_shapes import band_gains
-from scene2hap.propagation.bands.sampling import Sampling
-from scene2hap.propagation.coupled.coupling import ElasticBody, Ends, Joint
+from scene2hap.propagation.bands.sampling import Gains, Sampling
+from scene2hap.propagation.coupled.coupling import Ends, Joint
 from scene2hap.propagation.coupled.hand_load import HandLoad, LoadedGains
-from scene2hap.propagation.coupled.object_response import Gains, Magnitudes
-from scene2hap.propagation.coupled.response_basis import HasResponseBasis
-from scene2hap.propagation.modal.inclined_body import FeltInSpace, InclinedBody
+from scene2hap.propagation.coupled.object_response import Magnitudes
+from scene2hap.propagation.elastic_body import ElasticBody, HasResponseBasis, SpatialBody, contracted, pieces
 
 Complex = NDArray[np.complex128]
 
-MOST_CONTRACTED = 64
-"""Most sources that are contracted: an object keeps up to some 100 kB for each. More are summed at every touch."""
 POINTS_AT_ONCE = 32
 """Points whose responses at many frequencies are in memory at once."""
 
@@ -40,54 +36,6 @@ LOSSLESS = 1e-9
 """Net power into a body over the power exchanged at its joints, below which the net power is only rounding."""
 
 Floats = NDArray[np.float64]
-
-Pairs = Callable[[Floats], Floats]
-"""Function from points (n_points, 2) [m] to deflections (n_points, 2 n_frequencies), with real and imaginary parts
-alternating."""
-
-
-@runtime_checkable
-class Contractible(Protocol):
-    """A body without a `ResponseBasis` that can sum over known forces before the touched point is known."""
-
-    def under(self, forces_m: Floats, frequencies_hz: Floats, forces: Complex) -> Pairs:
-        """Deflection under forces (n_forces, n_frequencies) at points (n_forces, 2) [m]."""
-        ...
-
-
-@runtime_checkable
-class Piecewise(Protocol):
-    """A body that returns its receptance a few frequencies at a time, each part used while it is in the cache."""
-
-    def pieces(self, points_m: Floats, forces_m: Floats, frequencies_hz: Floats) -> Iterator[tuple[slice, Complex]]:
-        """Yield each part of the frequencies and the receptance there, see `ElasticBody.receptance`."""
-        ...
-
-
-def pieces(
-    body: ElasticBody, points_m: Floats, forces_m: Floats, frequencies_hz: Floats
-) -> Iterator[tuple[slice, Complex]]:
-    """See `Piecewise.pieces`; any other body gives all frequencies at once."""
-    if isinstance(body, Piecewise):
-        return body.pieces(points_m, forces_m, frequencies_hz)
-    return iter([(slice(None), np.ascontiguousarray(body.receptance(points_m, forces_m, frequencies_hz)))])
-
-
-def contracted(body: ElasticBody, forces_m: Floats, frequencies_hz: Floats, forces: Complex) -> Pairs:
-    """Deflection under known forces as a function of points, see `Contractible.under`; other bodies sum over contacts
-    at each query."""
-    if len(frequencies_hz) <= MOST_CONTRACTED:
-        if isinstance(body, HasResponseBasis):
-            basis = body.response_basis(forces_m)
-            return basis.mixed(basis.weights(frequencies_hz, forces[:, None])[:, 0].view(np.float64))
-        if isinstance(body, Contractible):
-            return body.under(forces_m, frequencies_hz, forces)
-
-    def summed(points_m: Floats) -> Floats:
-        receptance = body.receptance(points_m, forces_m, frequencies_hz)
-        return np.ascontiguousarray(np.einsum("fpc,cf->pf", receptance, forces)).view(np.float64)
-
-    return summed
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,7 +118,7 @@ class SolvedObject:
         """Gains of its sources at points on the object; fast if `is_expected` or if each source has one frequency."""
         if self.load is not None:
             return LoadedGains(self.body, self.ends.points_m, self.own_forces, self.columns, self.load, sampling)
-        if isinstance(self.body, InclinedBody):
+        if isinstance(self.body, SpatialBody):
             return FeltInSpace(self._gains(sampling, is_expected=is_expected), self.body)
         return self._gains(sampling, is_expected=is_expected)
 
@@ -192,3 +140,16 @@ class SolvedObject:
                 moved[part] = receptance @ self.own_forces[part]
             found[begin : begin + POINTS_AT_ONCE] = sampling.gains(moved, self.columns)
         return found
+
+
+class FeltInSpace:
+    """Gains of a body that moves in three directions: the length of the motion, from its three components."""
+
+    def __init__(self, gains: Gains, body: SpatialBody) -> None:
+        self._gains, self._body = gains, body
+
+    def __call__(self, points_m: Floats) -> Floats:
+        """See `Gains`."""
+        each = np.square(self._gains(self._body.felt(points_m)))
+        lengths: Floats = np.sqrt(each.reshape(3, len(points_m), *each.shape[1:]).sum(axis=0))
+        return lengths

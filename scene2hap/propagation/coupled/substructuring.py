@@ -24,20 +24,21 @@ from scene2hap.common.blas_threads import one_blas_thread
 from scene2hap.common.counted import counted
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import Sampling
+from scene2hap.propagation.bodies.inclined_body import inclined, inclined_box
+from scene2hap.propagation.bodies.legged_body import legged
+from scene2hap.propagation.bodies.rigid import RigidMotion, is_compact
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.coupling import ElasticBody, Joint, couple, inclined_in, require_memory
+from scene2hap.propagation.coupled.coupling import Joint, couple, inclined_in, require_memory
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.hand_load import HandLoad
 from scene2hap.propagation.coupled.hollow import no_heavier_than_object
 from scene2hap.propagation.coupled.impact_scene import DENSITY, IMPACT_BANDS, StruckScene
 from scene2hap.propagation.coupled.impact_solution import solve_struck
 from scene2hap.propagation.coupled.joints import joints_of, legs_of, source_groups
-from scene2hap.propagation.coupled.legged_body import legged
 from scene2hap.propagation.coupled.object_response import ObjectResponse
-from scene2hap.propagation.coupled.rigid import RigidMotion, is_compact
 from scene2hap.propagation.coupled.solved_object import SolvedObject
 from scene2hap.propagation.domain import OutsideDomain, check_thin
-from scene2hap.propagation.modal.inclined_body import inclined, inclined_box
+from scene2hap.propagation.elastic_body import ElasticBody
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import object_points
 from scene2hap.propagation.protocol import Carrier, ContactNetwork, CoupledModel, Excitation, require_input
@@ -100,7 +101,7 @@ class Assembly:
         return solve_struck(bodies, groups, self.network.bodies.keys(), touched_ids, frequencies_hz, hand)
 
     def _bodies(self, elastic: Mapping[str, ElasticBody]) -> dict[str, ElasticBody]:
-        """All bodies, with their legs; an `InclinedBody` where a joint is not along the normal."""
+        """All bodies, with their legs; a `SpatialBody` where a joint is not along the normal."""
         bodies: dict[str, ElasticBody] = {**self.rigid, **{key: self._legged(key, elastic[key]) for key in elastic}}
         for object_id in inclined_in([joint for _, joints in self.groups for joint in joints]):
             rigid, bending = self.rigid.get(object_id), bodies[object_id]

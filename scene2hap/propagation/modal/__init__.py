@@ -1,1 +1,1 @@
-"""The modes of a single plate, and bodies made of them."""
+"""The modes of a single plate and its near field."""

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
 from scene2hap.propagation.bands.octaves import OctaveSums
-from scene2hap.propagation.coupled.response_basis import AnyFloat, real_times
+from scene2hap.propagation.elastic_body import AnyFloat, real_times
 from scene2hap.propagation.modal.modes import FINE, MARGIN, Fineness, PlateModes, modes_up_to
 from scene2hap.propagation.modal.near_field import Dimples, NearField
 from scene2hap.propagation.modal.ritz import axis_basis, products

@@ -45,18 +45,18 @@ cdef inline double apart(double ax, double ay, double az, double bx, double by, 
     return sqrt(ax * ax + ay * ay + az * az)
 
 
-cdef inline bint is_beyond(Beside* beside, Edge* at, double cost, double price, double limit) noexcept nogil:
+cdef inline bint is_beyond(Beside* beside, Edge* at, double cost, double per_m, double limit) noexcept nogil:
     """Whether all contact points of a neighbour are too far away for a cost up to a limit."""
     cdef double metres = apart(at.x, at.y, at.z, beside.x, beside.y, beside.z) - beside.radius_m
-    return cost + price * metres > limit * ROUNDED_UP
+    return cost + per_m * metres > limit * ROUNDED_UP
 
 
 cdef class Object:
     """An object of the network, with its entries in the search with the number `search`."""
 
     cdef object id
-    cdef double price
-    cdef bint has_price
+    cdef double per_m
+    cdef bint has_cost
     cdef Py_ssize_t row  # of a source, else -1
     cdef dict neighbours
     cdef Beside* around  # neighbours that are sources, or through which a path may continue; in any order
@@ -108,7 +108,7 @@ cdef class Object:
             for i in range(self.n_entries):
                 entry = &self.entries[i]
                 if entry.hops <= hops and entry.cost <= cost:
-                    if entry.cost + self.price * apart(entry.x, entry.y, entry.z, at.x, at.y, at.z) <= cost:
+                    if entry.cost + self.per_m * apart(entry.x, entry.y, entry.z, at.x, at.y, at.z) <= cost:
                         return True
         return False
 
@@ -167,9 +167,9 @@ cdef class Neighbour:
 
     cdef int sort_in(self) except -1:
         """Add this neighbour to `out_of.around` if it is a source or a path may continue through it, else drop it."""
-        cdef bint leads_on = self.into.has_price and (
+        cdef bint leads_on = self.into.has_cost and (
             len(self.into.neighbours) > 1
-            or (self.n > 1 and self.out_of.has_price and self.into.price < self.out_of.price)
+            or (self.n > 1 and self.out_of.has_cost and self.into.per_m < self.out_of.per_m)
         )
         if leads_on or self.into.row >= 0:
             if self.place < 0:
@@ -182,10 +182,10 @@ cdef class Neighbour:
 
 
 cdef class ContactPaths:
-    cdef dict price_per_m, rows, objects
+    cdef dict cost_per_m, rows, objects
     cdef list ids
     cdef object crossing_costs
-    cdef double least_price
+    cdef double least_per_m
     cdef bint is_limited
     cdef int max_hops
     cdef long long search
@@ -196,12 +196,12 @@ cdef class ContactPaths:
     cdef Py_ssize_t* target_of  # index in `targets` of each source row, -1 if it is no target
     cdef double* found
 
-    def __init__(self, dict price_per_m, dict rows, crossing_costs, max_hops):
+    def __init__(self, dict cost_per_m, dict rows, crossing_costs, max_hops):
         self.crossing_costs = crossing_costs
         self.is_limited = max_hops is not None
         self.max_hops = min(max_hops, 1 << 30) if self.is_limited else 0
         self.objects = {}
-        self.use(price_per_m, rows)
+        self.use(cost_per_m, rows)
 
     def __dealloc__(self):
         PyMem_Free(self.labels)
@@ -212,12 +212,12 @@ cdef class ContactPaths:
         PyMem_Free(self.target_of)
         PyMem_Free(self.found)
 
-    def use(self, dict price_per_m, dict rows):
+    def use(self, dict cost_per_m, dict rows):
         cdef Object x
         cdef Neighbour out, back
         cdef bint was_source
-        self.price_per_m, self.rows, self.ids = price_per_m, rows, list(rows)
-        self.least_price = min(price_per_m.values(), default=0.0)
+        self.cost_per_m, self.rows, self.ids = cost_per_m, rows, list(rows)
+        self.least_per_m = min(cost_per_m.values(), default=0.0)
         self.free_targets()
         self.targets = <Target*>PyMem_Malloc((len(rows) + 1) * sizeof(Target))
         self.target_of = <Py_ssize_t*>PyMem_Malloc((len(rows) + 1) * sizeof(Py_ssize_t))
@@ -234,14 +234,14 @@ cdef class ContactPaths:
                     back.sort_in()
 
     cdef bint describe(self, Object x):
-        """Set price and row of an object. Returns whether any has changed."""
-        price = self.price_per_m.get(x.id)
-        cdef bint has_price = price is not None
-        cdef double per_m = price if has_price else 0.0
+        """Set cost per metre and row of an object. Returns whether any has changed."""
+        cost_per_m = self.cost_per_m.get(x.id)
+        cdef bint has_cost = cost_per_m is not None
+        cdef double per_m = cost_per_m if has_cost else 0.0
         cdef Py_ssize_t row = self.rows.get(x.id, -1)
-        if has_price == x.has_price and per_m == x.price and row == x.row:
+        if has_cost == x.has_cost and per_m == x.per_m and row == x.row:
             return False
-        x.has_price, x.price, x.row = has_price, per_m, row
+        x.has_cost, x.per_m, x.row = has_cost, per_m, row
         return True
 
     # The network.
@@ -368,7 +368,7 @@ cdef class ContactPaths:
             if at is not None:
                 self.found[<Py_ssize_t>at] = 0.0
             x = self.objects.get(object_id)
-            if x is not None and x.has_price:
+            if x is not None and x.has_cost:
                 start = Neighbour.__new__(Neighbour)
                 start.into = x
                 start.allocate(1)
@@ -413,7 +413,7 @@ cdef class ContactPaths:
         cdef Object here = way.into, beyond
         cdef Neighbour other
         cdef Py_ssize_t j, k
-        cdef double price = here.price, further, limit
+        cdef double per_m = here.per_m, further, limit
         cdef bint is_last = False
         cdef Target* target
         cdef Beside* beside
@@ -424,12 +424,12 @@ cdef class ContactPaths:
         limit = self.highest_limit()
         for j in range(here.n_around):
             beside = &here.around[j]
-            if beside.row < 0 or self.target_of[beside.row] < 0 or is_beyond(beside, at, cost, price, limit):
+            if beside.row < 0 or self.target_of[beside.row] < 0 or is_beyond(beside, at, cost, per_m, limit):
                 continue
             target, other = &self.targets[self.target_of[beside.row]], <Neighbour>beside.neighbour
             for k in range(other.n):
                 edge = &other.edges[k]
-                further = cost + price * apart(at.x, at.y, at.z, edge.x, edge.y, edge.z) + edge.crossing_cost
+                further = cost + per_m * apart(at.x, at.y, at.z, edge.x, edge.y, edge.z) + edge.crossing_cost
                 if further < self.found[target.row] and further <= target.at_most:
                     self.found[target.row] = target.at_most = further
         limit = self.highest_limit()
@@ -440,15 +440,15 @@ cdef class ContactPaths:
             is_last = hops + 1 == self.max_hops
         for j in range(here.n_around):
             beside = &here.around[j]
-            if not beside.leads_on or is_beyond(beside, at, cost, price, limit):
+            if not beside.leads_on or is_beyond(beside, at, cost, per_m, limit):
                 continue
             other = <Neighbour>beside.neighbour
             beyond = other.into
-            if (is_last and not beyond.n_sources) or (beyond is way.out_of and price >= beyond.price):
+            if (is_last and not beyond.n_sources) or (beyond is way.out_of and per_m >= beyond.per_m):
                 continue
             for k in range(other.n):
                 edge = &other.edges[k]
-                further = cost + price * apart(at.x, at.y, at.z, edge.x, edge.y, edge.z) + edge.crossing_cost
+                further = cost + per_m * apart(at.x, at.y, at.z, edge.x, edge.y, edge.z) + edge.crossing_cost
                 if further > limit or further == INFINITY:
                     continue
                 if edge.search != self.search:
@@ -491,7 +491,7 @@ cdef class ContactPaths:
         for i in range(self.n_targets):
             target = &self.targets[i]
             metres = apart(at.x, at.y, at.z, target.x, target.y, target.z) - target.radius_m
-            if cost + self.least_price * metres <= target.at_most * ROUNDED_UP:
+            if cost + self.least_per_m * metres <= target.at_most * ROUNDED_UP:
                 return True
         return False
 

@@ -11,7 +11,7 @@ cdef enum:
 
 def search(network, const Py_ssize_t[::1] out, double[::1] costs, Py_ssize_t[::1] hops, Py_ssize_t[::1] before):
     cdef const Py_ssize_t[::1] owner = network.owner, own_sides = network.own, first = network.first
-    cdef const double[::1] prices = network.prices, crossing = network.crossing
+    cdef const double[::1] cost_per_m = network.cost_per_m, crossing = network.crossing
     cdef const unsigned char[::1] leads_on = network.leads_on.view("uint8")
     cdef const double[:, ::1] points = network.points_m
     cdef Py_ssize_t k, side, own, across, here, n_hops
@@ -34,7 +34,7 @@ def search(network, const Py_ssize_t[::1] out, double[::1] costs, Py_ssize_t[::1
             x = points[side // 2, 0] - points[own // 2, 0]
             y = points[side // 2, 1] - points[own // 2, 1]
             z = points[side // 2, 2] - points[own // 2, 2]
-            within = costs[side] + prices[here] * sqrt(x * x + y * y + z * z)
+            within = costs[side] + cost_per_m[here] * sqrt(x * x + y * y + z * z)
             onward = within + crossing[own // 2]
             if not onward < costs[across] * (1.0 - WITHIN):
                 if not (onward <= costs[across] * (1.0 + WITHIN) and n_hops < hops[across]):
@@ -90,7 +90,7 @@ cdef class Waiting:
 def nearest_entries(
     const double[:, :] points,
     const double[:, :] entries,
-    double price,
+    double cost_per_m,
     costs,
     const Py_ssize_t[:, ::1] hops,
     Py_ssize_t[:, ::1] found,
@@ -108,7 +108,7 @@ def nearest_entries(
         for i in range(first, min(first + AT_ONCE, n_points)):
             for k in range(entries.shape[0]):
                 x, y, z = points[i, 0] - entries[k, 0], points[i, 1] - entries[k, 1], points[i, 2] - entries[k, 2]
-                within[i - first, k] = price * sqrt(x * x + y * y + z * z)
+                within[i - first, k] = cost_per_m * sqrt(x * x + y * y + z * z)
         for row in range(found.shape[0]):
             for i in range(first, min(first + AT_ONCE, n_points)):
                 found[row, i] = cheapest(within[i - first], rising[row], order[row], hops[row], &least[row, i])

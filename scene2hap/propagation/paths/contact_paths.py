@@ -1,6 +1,6 @@
 """Cheapest paths over contacts from touched points to sources (Dijkstra's algorithm, pruned).
 
-A path runs from contact to contact: a straight line through an object costs its price per metre, and each contact costs
+A path runs from contact to contact: a straight line through an object has a cost per metre, and each contact costs
 something to cross. A path costs the same in both directions, so one search from the touched points finds all sources.
 
 `ContactPaths` keeps the network of contacts and updates only the pairs that changed. Four rules prune the search, and
@@ -10,7 +10,7 @@ none of them changes a result:
   through an object is never longer than a line through another point.
 - An object that is no source, and touches only the object that the search comes from, leads nowhere.
 - With one contact left only sources are entered, and with two only their neighbours.
-- A path ends where even a straight line at the lowest price of all objects reaches no source at a useful cost (A*).
+- A path ends where even a straight line at the lowest cost per metre reaches no source at a useful cost (A*).
 
 Source of A*: P. E. Hart, N. J. Nilsson, B. Raphael, IEEE Trans. Systems Science and Cybernetics 4 (1968) 100.
 """
@@ -67,14 +67,14 @@ class Target:
 class ContactPaths:
     """A network of contacts, and the cheapest paths over it.
 
-    Parameters: price_per_m : cost of a metre through each object, >= 0; objects without a price pass nothing on; rows :
+    Parameters: cost_per_m : cost of a metre through each object, >= 0; objects without one pass nothing on; rows :
     index of each source in the results; crossing_costs : cost of crossing a contact, by its weight; max_hops : number
     of contacts that a path may cross, None for any number.
     """
 
     def __init__(
         self,
-        price_per_m: Mapping[str, float],
+        cost_per_m: Mapping[str, float],
         rows: Mapping[str, int],
         crossing_costs: Mapping[float, float],
         max_hops: int | None,
@@ -84,13 +84,13 @@ class ContactPaths:
         # Of these, the neighbours through which a path may lead on.
         self._onward: dict[str, dict[str, list[ContactEdge]]] = {}
         self._balls: dict[str, tuple[Triple, float]] = {}
-        self.use(price_per_m, rows)
+        self.use(cost_per_m, rows)
 
-    def use(self, price_per_m: Mapping[str, float], rows: Mapping[str, int]) -> None:
-        """Use other prices and sources over the same contacts."""
-        self._price_per_m: Mapping[str, float] = price_per_m
+    def use(self, cost_per_m: Mapping[str, float], rows: Mapping[str, int]) -> None:
+        """Use other costs per metre and sources over the same contacts."""
+        self._cost_per_m: Mapping[str, float] = cost_per_m
         self._rows: Mapping[str, int] = rows
-        self._least_price_per_m: float = min(price_per_m.values(), default=0.0)
+        self._least_cost_per_m: float = min(cost_per_m.values(), default=0.0)
         for here, neighbours in self._edges.items():
             for other in neighbours:
                 self._sort_in(here, other)
@@ -125,9 +125,9 @@ class ContactPaths:
             self._onward.pop(here, None)
             return
         onward, across = self._onward.setdefault(here, {}), self._edges[here].get(other)
-        price, leads_on = self._price_per_m.get(other), False
-        if across is not None and price is not None:
-            is_cheaper = price < self._price_per_m.get(here, 0.0)
+        per_m, leads_on = self._cost_per_m.get(other), False
+        if across is not None and per_m is not None:
+            is_cheaper = per_m < self._cost_per_m.get(here, 0.0)
             leads_on = len(self._edges[other]) > 1 or (is_cheaper and len(across) > 1)
         if across is not None and leads_on:
             onward[other] = across
@@ -146,13 +146,13 @@ class ContactPaths:
         among : rows of the sources to look for, None for all.
         Returns: one cost per source: 0 on a touched source, infinity without a path up to the limit.
         """
-        rows, prices, edges = self._rows, self._price_per_m, self._edges
+        rows, cost_per_m, edges = self._rows, self._cost_per_m, self._edges
         found = [math.inf] * len(rows)
         waiting: list[tuple[float, int, int, ContactEdge]] = []
         for object_id, point_m in touched:
             if object_id in rows:
                 found[rows[object_id]] = 0.0
-            if object_id in prices and object_id in edges:
+            if object_id in cost_per_m and object_id in edges:
                 waiting.append((0.0, len(waiting), 0, ContactEdge("", object_id, point_m, 0.0)))
         targets = {
             x: Target(row, math.inf if limits is None else limits[row], self._ball(x))
@@ -165,8 +165,8 @@ class ContactPaths:
         while waiting and targets:
             cost, _, hops, edge = heapq.heappop(waiting)
             here, point = edge.into, edge.point_m
-            price, known = prices[here], entries.setdefault(here, [])
-            if _is_dominated(known, price, point, cost, hops):
+            per_m, known = cost_per_m[here], entries.setdefault(here, [])
+            if _is_dominated(known, per_m, point, cost, hops):
                 continue
             targets = {x: t for x, t in targets.items() if cost <= t.at_most and cost < found[t.row]}
             if not self._may_reach(targets, point, cost):
@@ -174,21 +174,21 @@ class ContactPaths:
             known.append((point, cost, hops))
             for other, target in targets.items():
                 for onward in edges[here].get(other, ()):
-                    further = cost + price * math.dist(point, onward.point_m) + onward.crossing_cost
+                    further = cost + per_m * math.dist(point, onward.point_m) + onward.crossing_cost
                     if further < found[target.row] and further <= target.at_most:
                         found[target.row] = target.at_most = further
             limit = max([target.at_most for target in targets.values()])
             onward_hops = 0 if self._max_hops is None else hops + 1
             for other, across in self._neighbours_onward(here, onward_hops):
-                if other == edge.out_of and price >= prices[other]:
+                if other == edge.out_of and per_m >= cost_per_m[other]:
                     continue
-                beyond, price_beyond = entries.get(other, []), prices[other]
+                beyond, per_m_beyond = entries.get(other, []), cost_per_m[other]
                 for onward in across:
-                    further = cost + price * math.dist(point, onward.point_m) + onward.crossing_cost
+                    further = cost + per_m * math.dist(point, onward.point_m) + onward.crossing_cost
                     least, least_hops = best.get(onward, (math.inf, _MOST_HOPS))
                     if further > limit or further == math.inf or (further >= least and onward_hops >= least_hops):
                         continue
-                    if _is_dominated(beyond, price_beyond, onward.point_m, further, onward_hops):
+                    if _is_dominated(beyond, per_m_beyond, onward.point_m, further, onward_hops):
                         continue
                     if further <= least and onward_hops <= least_hops:
                         best[onward] = (further, onward_hops)
@@ -217,19 +217,19 @@ class ContactPaths:
 
     def _may_reach(self, targets: Mapping[str, Target], point_m: Triple, cost: float) -> bool:
         """Whether a path on from a point may reach a target at a useful cost."""
-        price = self._least_price_per_m
+        per_m = self._least_cost_per_m
         for target in targets.values():
             # Rounding must not prune a path of equal cost: its last digit would depend on the order of the search.
-            if cost + price * (math.dist(point_m, target.middle_m) - target.radius_m) <= target.at_most * _ROUNDED_UP:
+            if cost + per_m * (math.dist(point_m, target.middle_m) - target.radius_m) <= target.at_most * _ROUNDED_UP:
                 return True
         return False
 
 
 def _is_dominated(
-    entries: Iterable[tuple[Triple, float, int]], price_per_m: float, point_m: Triple, cost: float, hops: int
+    entries: Iterable[tuple[Triple, float, int]], cost_per_m: float, point_m: Triple, cost: float, hops: int
 ) -> bool:
     """Whether another entry into the object reaches a point at no higher cost and over no more contacts."""
     for entry_m, entry_cost, entry_hops in entries:  # `any` takes twice as long
-        if entry_hops <= hops and entry_cost + price_per_m * math.dist(entry_m, point_m) <= cost:
+        if entry_hops <= hops and entry_cost + cost_per_m * math.dist(entry_m, point_m) <= cost:
             return True
     return False

@@ -1,24 +1,22 @@
-"""The paper's law over a contact graph that changes between queries.
+"""The paper's law (`gamma`) over a contact graph that changes between queries.
 
-    Gamma = exp(-L sqrt(omega)),  L the cost of the cheapest path (`LivePaths`)
-
-Gamma falls with L, so the nearest of a hand's touches is the loudest. Costs are compared first, and the law is
-evaluated once for each hand and source.
+Gamma falls with the cost of the cheapest path (`LivePaths`), so the nearest of a hand's touches is the loudest. Costs
+are compared first, and the law is evaluated once for each hand and source.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.contact.junction import Junction
-from scene2hap.propagation.bands.band_rms import BandRms
-from scene2hap.propagation.live import LiveField, Prices, TouchedPoint
+from scene2hap.propagation.live import CostsByHand, LiveField, TouchedPoint
 from scene2hap.propagation.paths.contact_paths import ContactPaths, Triple
+from scene2hap.propagation.paths.gamma import Gamma, GammaAt, floored
 
 if TYPE_CHECKING:
     from scene2hap.contact.graph import ContactGraph
@@ -50,15 +48,15 @@ class _CrossingCosts(dict[float, float]):
 class LivePaths:
     """Cost of the cheapest path from each source to a touch, over a contact graph as it is now.
 
-    Parameters: graph : read before each query, never copied; price_per_m : cost of a metre through each object, >= 0;
-    objects without a price pass nothing on; crossing_cost : cost of crossing a contact, by its weight; max_hops :
+    Parameters: graph : read before each query, never copied; cost_per_m : cost of a metre through each object, >= 0;
+    objects without one pass nothing on; crossing_cost : cost of crossing a contact, by its weight; max_hops :
     contacts that a path may cross, None for any number.
     """
 
     def __init__(
         self,
         graph: ContactGraph,
-        price_per_m: Mapping[str, float],
+        cost_per_m: Mapping[str, float],
         crossing_cost: Callable[[float], float],
         source_ids: Sequence[str],
         max_hops: int | None,
@@ -66,7 +64,7 @@ class LivePaths:
         self._graph, self._beside = graph, graph.beside
         rows = {source_id: row for row, source_id in enumerate((*source_ids, _POINT))}
         self._point_row, self._crossing_costs = len(source_ids), _CrossingCosts(crossing_cost)
-        self._given = dict(price_per_m), rows
+        self._given = dict(cost_per_m), rows
         self._paths = ContactPaths(*self._given, self._crossing_costs, max_hops)
         self._version = -1
 
@@ -135,14 +133,6 @@ class LivePaths:
         return [cost - self._crossing_costs[1.0] for cost in found]
 
 
-class Gamma(Protocol):
-    """Attenuation as a function of path cost."""
-
-    def __call__(self, prices: Prices, columns: Sequence[int] | None) -> Floats:
-        """Attenuation (n, n_columns, n_bands) [-] at n costs of each source in `columns`, None for all sources."""
-        ...
-
-
 class LiveLaw:
     """A live field of the paper's law.
 
@@ -162,58 +152,29 @@ class LiveLaw:
 
     def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:
         """See `LiveField`."""
-        return self.at(self.prices(hands))
+        return self.at(self.path_costs(hands))
 
-    def prices(
+    def path_costs(
         self,
         hands: Sequence[Sequence[TouchedPoint]],
         limits: Sequence[float] | None = None,
         among: Sequence[Collection[int]] | None = None,
-    ) -> Prices:
-        """See `PricedField`."""
+    ) -> CostsByHand:
+        """See `PathCostField`."""
         least_costs = self._paths.least_costs
         if among is None:
             return [least_costs(touched, limits) for touched in hands]
         return [least_costs(touched, limits, rows) for touched, rows in zip(hands, among, strict=True)]
 
-    def at(self, prices: Prices, columns: Sequence[int] | None = None) -> Floats:
-        """See `PricedField`."""
-        gamma = self._gamma(prices, columns)
-        return np.maximum(gamma, self._floor * np.isfinite(prices)[:, :, None]) if self._floor else gamma
+    def at(self, costs: CostsByHand, columns: Sequence[int] | None = None) -> Floats:
+        """See `PathCostField`."""
+        return floored(self._gamma(costs, columns), costs, self._floor)
 
     def from_point(
         self, object_id: str, point_m: Triple, hands: Sequence[Sequence[TouchedPoint]], frequencies_hz: Floats
     ) -> Floats:
         """See `PointField`."""
-        root_omega = np.sqrt(2 * math.pi * frequencies_hz)
-        limit = math.inf if self._floor else -math.log(_FAINTEST) / float(root_omega.min())
+        root_omega = math.sqrt(2 * math.pi * frequencies_hz.min())
+        limit = math.inf if self._floor else -math.log(_FAINTEST) / root_omega
         costs = np.array(self._paths.costs_from(object_id, point_m, hands, limit)).reshape(-1, 1)
-        gamma: Floats = np.exp(-costs * root_omega)
-        arrives: Floats = np.isfinite(costs).astype(np.float64)
-        return np.maximum(gamma, self._floor * arrives)
-
-
-class GammaAt:
-    """exp(-L sqrt(omega)) at one frequency [Hz] for each source, which is its only band."""
-
-    def __init__(self, frequencies_hz: Floats) -> None:
-        self._minus_root_omega = -np.sqrt(2 * math.pi * frequencies_hz)
-
-    def __call__(self, prices: Prices, columns: Sequence[int] | None) -> Floats:
-        """See `Gamma`; one band."""
-        gamma = np.array(prices)
-        gamma *= self._minus_root_omega if columns is None else self._minus_root_omega.take(columns)
-        np.exp(gamma, out=gamma)
-        return gamma[:, :, None]
-
-
-class GammaOver:
-    """The root mean square of exp(-L sqrt(omega)) over bands."""
-
-    def __init__(self, bands: BandRms) -> None:
-        self._bands = bands
-
-    def __call__(self, prices: Prices, columns: Sequence[int] | None) -> Floats:
-        """See `Gamma`; the same for all sources."""
-        gamma = self._bands([price for row in prices for price in row])
-        return gamma.reshape(len(prices), len(prices[0]) if prices else 0, gamma.shape[1])
+        return floored(GammaAt(frequencies_hz)(costs), costs, self._floor)[:, :, 0]

@@ -1,7 +1,7 @@
 """The cheapest path from each source over contacts to each object of a scene, for prepared fields.
 
 A path runs from contact to contact. Crossing a contact leads from one object to the next; between two contacts it runs
-straight through the object that has both, at that object's price per metre. Inside the source's own body distance is
+straight through the object that has both, at that object's cost per metre. Inside the source's own body distance is
 free, since the source vibrates as a whole.
 
 The paper collects all paths by depth-first search, with one object between source and hand. Here the cheapest path is
@@ -67,28 +67,28 @@ class Arrivals:
 
 
 def cheapest_arrivals(
-    price_per_m: Mapping[str, float],
+    cost_per_m: Mapping[str, float],
     contacts: Sequence[Contact],
     crossing_cost: Sequence[float],
     source_ids: Sequence[str],
     max_hops: int | None,
 ) -> dict[str, Arrivals]:
-    """Compute the arrivals at every object that has a price.
+    """Compute the arrivals at every object that has a cost per metre.
 
-    Parameters: price_per_m : cost of a metre through an object, >= 0; an object without a price passes nothing on (it
-    may be a source); crossing_cost : cost of each contact, >= 0; max_hops : contacts that a path may cross, None for
-    any number.
+    Parameters: cost_per_m : cost of a metre through an object, >= 0; an object without one passes nothing on (it may
+    be a source); crossing_cost : cost of each contact, >= 0; max_hops : contacts that a path may cross, None for any
+    number.
     """
     sides = Sides.of(contacts, crossing_cost)
     if max_hops is None:
-        costs = least_costs(price_per_m, sides, source_ids).costs
+        costs = least_costs(cost_per_m, sides, source_ids).costs
     else:
-        (costs,) = deque(costs_by_hops(price_per_m, sides, source_ids, max_hops), maxlen=1)
-    return arrivals_of(price_per_m, sides, costs)
+        (costs,) = deque(costs_by_hops(cost_per_m, sides, source_ids, max_hops), maxlen=1)
+    return arrivals_of(cost_per_m, sides, costs)
 
 
-def arrivals_of(price_per_m: Mapping[str, float], sides: Sides, costs: NDArray[np.float64]) -> dict[str, Arrivals]:
-    """Return the arrivals at every object that has a price, from the costs (n_sources, n_sides) over all sides."""
+def arrivals_of(cost_per_m: Mapping[str, float], sides: Sides, costs: NDArray[np.float64]) -> dict[str, Arrivals]:
+    """Return the arrivals at every object with a cost per metre, from the costs (n_sources, n_sides) over all sides."""
     # Contacts that every source reaches from within the object are never on a cheapest path into it. On a floor with a
     # thousand objects these are most contacts.
     with np.errstate(invalid="ignore"):  # a contact of weight 0 costs inf, and inf - inf is nan
@@ -96,7 +96,7 @@ def arrivals_of(price_per_m: Mapping[str, float], sides: Sides, costs: NDArray[n
         is_entered: NDArray[np.bool_] = np.any(~(within < costs * (1.0 - WITHIN)), axis=0)
     arrivals = {}
     for object_id, own in sides.by_object.items():
-        if object_id in price_per_m:
+        if object_id in cost_per_m:
             entered = own[is_entered[own]]
             arrivals[object_id] = Arrivals(sides.points_m[entered // 2], costs[:, entered])
     return arrivals
@@ -104,7 +104,7 @@ def arrivals_of(price_per_m: Mapping[str, float], sides: Sides, costs: NDArray[n
 
 def arrivals_at(
     arrivals: Mapping[str, Arrivals],
-    price_per_m: Mapping[str, float],
+    cost_per_m: Mapping[str, float],
     source_ids: Sequence[str],
     object_id: str,
     points_m: ArrayLike,
@@ -117,7 +117,7 @@ def arrivals_at(
         arrived, least = arrivals[object_id], np.empty((len(source_ids), len(points)))
         entry = np.empty(least.shape, dtype=np.intp)
         hops = np.zeros(arrived.costs.shape, dtype=np.intp)
-        nearest_entries(points, arrived.points_m, price_per_m[object_id], arrived.costs, hops, entry, least)
+        nearest_entries(points, arrived.points_m, cost_per_m[object_id], arrived.costs, hops, entry, least)
         costs = np.ascontiguousarray(least.T)
     for column, source_id in enumerate(source_ids):
         if source_id == object_id:
@@ -137,9 +137,9 @@ class Found(NamedTuple):
     before: NDArray[np.intp]
 
 
-def least_costs(price_per_m: Mapping[str, float], sides: Sides, source_ids: Sequence[str]) -> Found:
+def least_costs(cost_per_m: Mapping[str, float], sides: Sides, source_ids: Sequence[str]) -> Found:
     """Return the cheapest path from each source over each side."""
-    shape, network = (len(source_ids), len(sides.owner)), Network.of(price_per_m, sides)
+    shape, network = (len(source_ids), len(sides.owner)), Network.of(cost_per_m, sides)
     found = Found(np.full(shape, np.inf), np.zeros(shape, dtype=np.intp), np.zeros(shape, dtype=np.intp))
     for row, source_id in enumerate(source_ids):
         if source_id in sides.by_object:
@@ -151,32 +151,32 @@ class Network(NamedTuple):
     """The sides of contacts as arrays.
 
     owner (n_sides,) : number of the object of each side; own (n_sides,) : the sides of all objects, one object after
-    the other; first (n_objects + 1,) : where each object's begin in `own`; prices (n_objects,) : per metre, infinite
-    where no path leads through; leads_on (n_sides,) : whether a path may be cheaper that enters over this side and goes
-    on; points_m, crossing : see `Sides`.
+    the other; first (n_objects + 1,) : where each object's begin in `own`; cost_per_m (n_objects,) : infinite where no
+    path leads through; leads_on (n_sides,) : whether a path may be cheaper that enters over this side and goes on;
+    points_m, crossing : see `Sides`.
     """
 
     owner: NDArray[np.intp]
     own: NDArray[np.intp]
     first: NDArray[np.intp]
-    prices: NDArray[np.float64]
+    cost_per_m: NDArray[np.float64]
     leads_on: NDArray[np.bool_]
     points_m: NDArray[np.float64]
     crossing: NDArray[np.float64]
 
     @classmethod
-    def of(cls, price_per_m: Mapping[str, float], sides: Sides) -> Network:
+    def of(cls, cost_per_m: Mapping[str, float], sides: Sides) -> Network:
         """Number the objects of sides."""
         number = {object_id: k for k, object_id in enumerate(sides.by_object)}
         owner = np.array([number[object_id] for object_id in sides.owner], dtype=np.intp)
-        prices = np.array([price_per_m.get(object_id, np.inf) for object_id in sides.by_object], dtype=np.float64)
+        per_m = np.array([cost_per_m.get(object_id, np.inf) for object_id in sides.by_object], dtype=np.float64)
         own = np.concatenate([*sides.by_object.values(), np.empty(0, dtype=np.intp)])
         first = np.cumsum([0, *map(len, sides.by_object.values())], dtype=np.intp)
         # An object that touches only the object that a path comes from, and is not cheaper, leads nowhere new.
         n_beside = np.array([len(set(owner[its ^ 1].tolist())) for its in sides.by_object.values()], dtype=np.intp)
         behind = owner[np.arange(len(owner)) ^ 1]
-        leads_on = np.isfinite(prices[owner]) & ((n_beside[owner] > 1) | (prices[owner] < prices[behind]))
-        return cls(owner, own, first, prices, leads_on, sides.points_m, sides.crossing)
+        leads_on = np.isfinite(per_m[owner]) & ((n_beside[owner] > 1) | (per_m[owner] < per_m[behind]))
+        return cls(owner, own, first, per_m, leads_on, sides.points_m, sides.crossing)
 
 
 @compiled
@@ -191,7 +191,7 @@ def search(
 
     Parameters: out : the sides of the source.
     """
-    owner, own_sides, first, prices, leads_on, points_m, crossing = network
+    owner, own_sides, first, cost_per_m, leads_on, points_m, crossing = network
     costs[out ^ 1], hops[out ^ 1] = crossing[out // 2], 1
     waiting = np.where(leads_on, costs, np.inf)
     with np.errstate(invalid="ignore"):  # a contact of weight 0 costs inf, and inf - inf is nan
@@ -202,7 +202,7 @@ def search(
             here = owner[side]
             own = own_sides[first[here] : first[here + 1]]
             across, crossed = own ^ 1, crossing[own // 2]
-            within = costs[side] + prices[here] * distances_m(points_m[[side // 2]], points_m[own // 2])[0]
+            within = costs[side] + cost_per_m[here] * distances_m(points_m[[side // 2]], points_m[own // 2])[0]
             onward, n_hops = within + crossed, hops[side] + 1
             is_equal = onward <= costs[across] * (1.0 + WITHIN)
             is_better = (onward < costs[across] * (1.0 - WITHIN)) | (is_equal & (n_hops < hops[across]))
@@ -219,7 +219,7 @@ def search(
 def nearest_entries(
     points_m: NDArray[np.float64],
     entries_m: NDArray[np.float64],
-    price_per_m: float,
+    cost_per_m: float,
     costs: NDArray[np.float64],
     hops: NDArray[np.intp],
     found: NDArray[np.intp],
@@ -234,7 +234,7 @@ def nearest_entries(
     found[:], least[:] = -1, np.inf
     for start in range(0, len(points_m) if len(entries_m) else 0, _AT_ONCE):
         part = slice(start, start + _AT_ONCE)
-        within = price_per_m * distances_m(points_m[part], entries_m)
+        within = cost_per_m * distances_m(points_m[part], entries_m)
         for row in range(len(found)):
             total = within + costs[row]
             least[row, part] = lowest = total.min(axis=1)
@@ -243,7 +243,7 @@ def nearest_entries(
 
 
 def costs_by_hops(
-    price_per_m: Mapping[str, float], sides: Sides, source_ids: Sequence[str], max_hops: int
+    cost_per_m: Mapping[str, float], sides: Sides, source_ids: Sequence[str], max_hops: int
 ) -> Iterator[NDArray[np.float64]]:
     """Yield the cost (n_sources, n_sides) of arriving over each side with at most 1, 2, ... contacts, up to the last
     round that may lower a cost."""
@@ -258,9 +258,9 @@ def costs_by_hops(
     while len(entered) and hops < max_hops:
         improved = costs.copy()
         for object_id, rows in _by_object(owner, entered[_useful(costs, crossing, entered)]).items():
-            if object_id in price_per_m:
+            if object_id in cost_per_m:
                 own = by_object[object_id]
-                way = price_per_m[object_id] * distances_m(points_m[rows // 2], points_m[own // 2]) + crossing[own // 2]
+                way = cost_per_m[object_id] * distances_m(points_m[rows // 2], points_m[own // 2]) + crossing[own // 2]
                 onward = (costs[:, rows, None] + way).min(axis=1)
                 improved[:, own ^ 1] = np.minimum(improved[:, own ^ 1], onward)
         entered = np.flatnonzero((improved < costs).any(axis=0))

@@ -53,45 +53,45 @@ class TracedPaths:
 
     def __init__(
         self,
-        price_per_m: Mapping[str, float],
+        cost_per_m: Mapping[str, float],
         contacts: Sequence[Contact],
         crossing_cost: Sequence[float],
         source_ids: Sequence[str],
         max_hops: int | None,
     ) -> None:
-        self._price_per_m, self._rows = price_per_m, {source_id: row for row, source_id in enumerate(source_ids)}
+        self._cost_per_m, self._rows = cost_per_m, {source_id: row for row, source_id in enumerate(source_ids)}
         self._sides = Sides.of(contacts, crossing_cost)
         if max_hops is None:
-            self._costs, hops, self._side_before = least_costs(price_per_m, self._sides, source_ids)
+            self._costs, hops, self._side_before = least_costs(cost_per_m, self._sides, source_ids)
             # The number of contacts before each side on the cheapest path to it.
             self._n_before: NDArray[np.intp] = hops - 1
         else:
-            self._by_hops = list(costs_by_hops(price_per_m, self._sides, source_ids, max_hops))
+            self._by_hops = list(costs_by_hops(cost_per_m, self._sides, source_ids, max_hops))
             self._costs = self._by_hops[-1]
             self._n_before = np.argmax([costs <= self._costs * (1.0 + WITHIN) for costs in self._by_hops], axis=0)
         self._is_limited = max_hops is not None
 
     def arrivals(self, source_ids: Sequence[str]) -> dict[str, Arrivals]:
-        """Return the arrivals of some sources at every object that has a price."""
+        """Return the arrivals of some sources at every object that has a cost per metre."""
         rows = [self._rows[source_id] for source_id in source_ids]
-        return arrivals_of(self._price_per_m, self._sides, self._costs[rows])
+        return arrivals_of(self._cost_per_m, self._sides, self._costs[rows])
 
     def entered(self, object_id: str, points_m: NDArray[np.floating]) -> NDArray[np.intp]:
         """Return the side over which each source arrives at points (n_points, 3) [m] of an object, -1 without a path.
 
         Returns: (n_sources, n_points). A source is on itself without a path.
         """
-        if object_id in self._sides.by_object and object_id in self._price_per_m:
-            return self._cheapest(object_id, points_m.astype(np.float64), self._price_per_m[object_id])
+        if object_id in self._sides.by_object and object_id in self._cost_per_m:
+            return self._cheapest(object_id, points_m.astype(np.float64), self._cost_per_m[object_id])
         return np.full((len(self._rows), len(points_m)), -1, dtype=np.intp)
 
-    def _cheapest(self, object_id: str, points_m: NDArray[np.float64], price_per_m: float) -> NDArray[np.intp]:
+    def _cheapest(self, object_id: str, points_m: NDArray[np.float64], cost_per_m: float) -> NDArray[np.intp]:
         """Return the side (n_sources, n_points) over which each source arrives at points of an object, -1 for none."""
         own = self._sides.by_object[object_id]
         found = np.empty((len(self._rows), len(points_m)), dtype=np.intp)
         costs, n_before = self._costs.take(own, axis=1), self._n_before.take(own, axis=1)
         nearest_entries(
-            points_m, self._sides.points_m[own // 2], price_per_m, costs, n_before, found, np.empty(found.shape)
+            points_m, self._sides.points_m[own // 2], cost_per_m, costs, n_before, found, np.empty(found.shape)
         )
         return np.where(found >= 0, own[found], -1)
 
@@ -155,7 +155,7 @@ class TracedPaths:
         """Return the side over which the cheapest path over at most `n_hops` contacts enters the object behind one."""
         entries, points_m = self._sides.by_object[behind], self._sides.points_m
         through_m = distances_m(points_m[[side // 2]], points_m[entries // 2])[0]
-        return int(entries[(self._by_hops[n_hops - 1][row, entries] + self._price_per_m[behind] * through_m).argmin()])
+        return int(entries[(self._by_hops[n_hops - 1][row, entries] + self._cost_per_m[behind] * through_m).argmin()])
 
 
 class PathsToPoint:
@@ -167,7 +167,7 @@ class PathsToPoint:
 
     def __init__(
         self,
-        price_per_m: Mapping[str, float],
+        cost_per_m: Mapping[str, float],
         contacts: Sequence[Contact],
         crossing_cost: Sequence[float],
         max_hops: int | None,
@@ -176,7 +176,7 @@ class PathsToPoint:
     ) -> None:
         hops = None if max_hops is None else max_hops + 1
         touch = Contact(_TOUCH, object_id, point_m)
-        self._traced = TracedPaths(price_per_m, [*contacts, touch], [*crossing_cost, 0.0], (_TOUCH,), hops)
+        self._traced = TracedPaths(cost_per_m, [*contacts, touch], [*crossing_cost, 0.0], (_TOUCH,), hops)
         self._object_id = object_id
 
     def legs(self, source_id: str) -> tuple[Leg, ...] | None:

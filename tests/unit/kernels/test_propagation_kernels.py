@@ -27,12 +27,12 @@ def places(rng: np.random.Generator, n: int) -> list[tuple[float, float, float]]
 def test_kernels_find_the_same_costs_from_a_source(seed: int, on_grid: bool) -> None:
     rng = np.random.default_rng(seed)
     ids = [f"x{i}" for i in range(8)]
-    prices = {x: float(rng.choice([0.0, rng.uniform(0.1, 2)])) for x in ids[:-1]}
+    cost_per_m = {x: float(rng.choice([0.0, rng.uniform(0.1, 2)])) for x in ids[:-1]}
     points = rng.integers(0, 3, (30, 3)) if on_grid else rng.normal(size=(30, 3))  # on a grid many paths are equal
     pairs = [rng.choice(ids, 2, replace=False).tolist() for _ in points]
     contacts = [Contact(a, b, tuple(point)) for (a, b), point in zip(pairs, points.tolist(), strict=True)]
     sides = Sides.of(contacts, rng.choice([0.0, 0.3, math.inf], len(contacts)))
-    network, n_sides = Network.of(prices, sides), 2 * len(contacts)
+    network, n_sides = Network.of(cost_per_m, sides), 2 * len(contacts)
     found = []
     for kernel in both("propagation.paths.prepared_paths.search"):
         costs, hops, before = np.full(n_sides, np.inf), np.zeros(n_sides, dtype=np.intp), np.zeros(n_sides, np.intp)
@@ -47,7 +47,7 @@ def test_kernels_find_the_same_costs_from_a_source(seed: int, on_grid: bool) -> 
             through = sides.owner[side ^ 1]
             assert sides.owner[before[side]] == through
             m = math.dist(points[before[side] // 2], points[side // 2])
-            cost = costs[before[side]] + prices[through] * m + sides.crossing[side // 2]
+            cost = costs[before[side]] + cost_per_m[through] * m + sides.crossing[side // 2]
             assert cost == pytest.approx(costs[side], rel=1e-11)
             assert 0 < hops[before[side]] < hops[side]
 
@@ -60,17 +60,17 @@ def test_kernels_find_the_same_entries_into_an_object(seed: int, on_grid: bool, 
         rng.integers(0, 4, (n, 3)).astype(float) if on_grid else rng.normal(size=(n, 3)) for n in (19, n_entries)
     )
     costs = rng.choice([0.0, 1.0, 2.0, math.inf], (3, n_entries)) if on_grid else rng.random((3, n_entries))
-    hops, price = rng.integers(0, 3, (3, n_entries)), float(rng.choice([0.0, 1.0]))
+    hops, cost_per_m = rng.integers(0, 3, (3, n_entries)), float(rng.choice([0.0, 1.0]))
     found = []
     for kernel in both("propagation.paths.prepared_paths.nearest_entries"):
         best, least = np.empty((3, 19), dtype=np.intp), np.empty((3, 19))
-        kernel(points, entries, price, costs, hops, best, least)
+        kernel(points, entries, cost_per_m, costs, hops, best, least)
         found.append((best.tolist(), least.tolist()))
     (plain, lowest), twin = found
     assert twin == (plain, lowest)
     for row, chosen in enumerate(plain):
         for point, entry, cost in zip(points, chosen, lowest[row], strict=True):
-            every = [c + price * math.dist(point, at) for c, at in zip(costs[row], entries, strict=True)]
+            every = [c + cost_per_m * math.dist(point, at) for c, at in zip(costs[row], entries, strict=True)]
             least = min(every, default=math.inf)
             equal = [k for k, cost in enumerate(every) if cost <= least * (1.0 + 1e-12) < math.inf]
             assert cost == pytest.approx(least, rel=1e-12)
@@ -82,7 +82,7 @@ def test_kernels_find_the_same_entries_into_an_object(seed: int, on_grid: bool, 
 def test_kernels_find_the_same_paths_as_contacts_change(seed: int, max_hops: int | None) -> None:
     rng = np.random.default_rng(seed)
     ids = [f"x{i}" for i in range(9)]
-    prices = {x: float(rng.choice([0.0, rng.uniform(0.1, 2)])) for x in ids[:-2]}
+    cost_per_m = {x: float(rng.choice([0.0, rng.uniform(0.1, 2)])) for x in ids[:-2]}
     rows = {"x0": 0, "x5": 1, "x8": 2}
     crossing = {0.5: 0.3, 1.0: 0.0, 0.0: math.inf}
     beside: dict[str, dict[str, Junction]] = {}
@@ -101,23 +101,23 @@ def test_kernels_find_the_same_paths_as_contacts_change(seed: int, max_hops: int
     for _ in range(12):
         change()
     kinds = both("propagation.paths.contact_paths.ContactPaths")
-    networks = [kind(prices, rows, crossing, max_hops) for kind in kinds]
+    networks = [kind(cost_per_m, rows, crossing, max_hops) for kind in kinds]
     for step in range(10):
         pairs = [change() for _ in range(rng.integers(0, 4))] if step else None
         touched = [(str(rng.choice([*ids, "nobody"])), place) for place in places(rng, int(rng.integers(0, 3)))]
         limits = rng.choice([0.5, 3.0, math.inf], 3).tolist() if rng.random() < 0.7 else None
         among = {0, 2} if rng.random() < 0.3 else None
         if rng.random() < 0.3:
-            prices = {x: round(float(rng.uniform(0.0, 2.0)), 1) for x in ids if rng.random() < 0.8}
+            cost_per_m = {x: round(float(rng.uniform(0.0, 2.0)), 1) for x in ids if rng.random() < 0.8}
             rows = {x: row for row, x in enumerate(rng.permutation(ids)[:3].tolist())}
             for network in networks:
-                network.use(prices, rows)
+                network.use(cost_per_m, rows)
         for network in networks:
             network.update(None if rng.random() < 0.2 else pairs, beside)
         plain, twin = (network.cheapest(touched, limits, among) for network in networks)
         assert twin == pytest.approx(plain, rel=1e-12)
         for kind, kept in zip(kinds, (plain, twin), strict=True):
-            fresh = kind(prices, rows, crossing, max_hops)
+            fresh = kind(cost_per_m, rows, crossing, max_hops)
             fresh.update(None, beside)
             assert fresh.cheapest(touched, limits, among) == kept
 

@@ -14,11 +14,11 @@ from kernels import both, seeds, steady
 @given(seed=seeds, n=st.integers(0, 3))
 def test_kernels_select_the_same_sources_within_the_cut_off(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
-    prices = rng.choice([0.0, 1.0, 2.0, math.inf], (n, 5)).tolist()
+    costs = rng.choice([0.0, 1.0, 2.0, math.inf], (n, 5)).tolist()
     cutoff = rng.choice([-1.0, 0.0, 1.5, math.inf], 5).tolist()
     sought = [frozenset(rng.choice(5, int(rng.integers(0, 5)), replace=False).tolist()) for _ in range(n)]
     plain, twin = both("session.audibility.within")
-    assert twin(prices, cutoff, sought) == plain(prices, cutoff, sought)
+    assert twin(costs, cutoff, sought) == plain(costs, cutoff, sought)
 
 
 @steady

@@ -22,15 +22,15 @@ from scene2hap import (
     materials,
     plate_modes,
 )
+from scene2hap.common import byte_bounded_lru
+from scene2hap.common.byte_bounded_lru import ByteBoundedLru
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation.bands.sampling import Sampling
-from scene2hap.propagation.coupled import byte_bounded_lru
-from scene2hap.propagation.coupled.byte_bounded_lru import ByteBoundedLru
+from scene2hap.propagation.bodies.infinite_body import InfiniteBody
+from scene2hap.propagation.bodies.modal_body import ModalBody
+from scene2hap.propagation.bodies.rigid import RigidMotion, is_compact
+from scene2hap.propagation.bodies.split_body import SplitBody
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.rigid import RigidMotion, is_compact
-from scene2hap.propagation.coupled.split_body import SplitBody
-from scene2hap.propagation.infinite_plate import InfiniteBody
-from scene2hap.propagation.modal.modal_body import ModalBody
 from scene2hap.propagation.modal.modes import first_bending_hz
 
 OAK, STEEL, CERAMIC = (materials.lookup(name) for name in ("oak", "steel", "ceramic"))

@@ -11,10 +11,10 @@ import pytest
 from scene2hap import materials
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation import mass_spring_damper
-from scene2hap.propagation.coupled.split_body import SplitBody
-from scene2hap.propagation.infinite_plate import InfiniteBody
+from scene2hap.propagation.bodies.infinite_body import InfiniteBody
+from scene2hap.propagation.bodies.lattice_body import LatticeBody
+from scene2hap.propagation.bodies.split_body import SplitBody
 from scene2hap.propagation.lattice import lattice_modes
-from scene2hap.propagation.lattice.lattice_body import LatticeBody
 from scene2hap.propagation.mass_spring_damper import CoarsenedWarning, MassSpringDamper
 from scene2hap.propagation.plate import Plate
 

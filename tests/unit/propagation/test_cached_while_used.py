@@ -8,10 +8,10 @@ import pytest
 from garbage import no_garbage_collection
 from scene2hap import materials
 from scene2hap.propagation import cached_while_used as module
+from scene2hap.propagation.bodies.lattice_body import lattice_body
+from scene2hap.propagation.bodies.modal_body import modal_body
 from scene2hap.propagation.cached_while_used import cached_while_used
-from scene2hap.propagation.lattice.lattice_body import lattice_body
 from scene2hap.propagation.modal.in_plane import in_plane_modes
-from scene2hap.propagation.modal.modal_body import modal_body
 from scene2hap.propagation.plate import Plate
 
 PLATE = Plate(0.3, 0.2, 0.012, materials.lookup("oak"))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, InfinitePlate, Plate, RigidBody, materials
-from scene2hap.propagation.infinite_plate import InfiniteBody
+from scene2hap.propagation.bodies.infinite_body import InfiniteBody
 from scene2hap.propagation.protocol import CarryingField
 
 OAK = materials.lookup("oak")

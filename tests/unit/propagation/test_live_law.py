@@ -16,7 +16,7 @@ from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
 
 SOURCES = ("radio", "phone", "lamp", "fan")
-PRICES = {"floor": 0.3, "table": 0.2, "shelf": 0.4, "radio": 0.1, "phone": 0.5, "cup": 0.2}
+COST_PER_M = {"floor": 0.3, "table": 0.2, "shelf": 0.4, "radio": 0.1, "phone": 0.5, "cup": 0.2}
 
 
 def crossing(weight: float) -> float:
@@ -41,20 +41,20 @@ def room() -> ContactGraph:
 @pytest.mark.parametrize("max_hops", [1, 2, 3, None])
 def test_live_law_equals_a_search_of_the_whole_scene(max_hops: int | None) -> None:
     graph = room()
-    paths = LivePaths(graph, PRICES, crossing, SOURCES, max_hops)
+    paths = LivePaths(graph, COST_PER_M, crossing, SOURCES, max_hops)
     rng = np.random.default_rng(1)
     reached = 0
     for step in range(12):
         lift = 0.3 if step % 4 == 3 else 0.0
         graph.update({"phone": Pose((0.2 + 0.01 * step, 0.705, 0.1)), "radio": Pose((-0.3, 0.75 + lift, 0.02 * step))})
         costs = [crossing(contact.weight) for contact in graph.contacts]
-        arrivals = cheapest_arrivals(PRICES, graph.contacts, costs, SOURCES, max_hops)
+        arrivals = cheapest_arrivals(COST_PER_M, graph.contacts, costs, SOURCES, max_hops)
         for touched in graph.poses:
             for _ in range(2):  # the second query uses results cached by the first
                 point = tuple(rng.uniform(-1, 1, 3).tolist())
                 found = paths.least_costs([(touched, point)])
-                if touched in PRICES:
-                    expected = arrivals_at(arrivals, PRICES, SOURCES, touched, [point])[0]
+                if touched in COST_PER_M:
+                    expected = arrivals_at(arrivals, COST_PER_M, SOURCES, touched, [point])[0]
                     np.testing.assert_allclose(found, expected, rtol=1e-12)
                     reached += int(np.isfinite(expected).sum())
                 else:
@@ -64,13 +64,18 @@ def test_live_law_equals_a_search_of_the_whole_scene(max_hops: int | None) -> No
 
 def test_live_law_accepts_engine_contacts() -> None:
     graph = room()
-    paths = LivePaths(graph, PRICES, crossing, SOURCES, 2)
+    paths = LivePaths(graph, COST_PER_M, crossing, SOURCES, 2)
     given = [Contact("radio", "table", (0, 0.7, 0), weight=0.5), Contact("floor", "table", (0, 0, 1))]
     graph.update({}, contacts=given)
-    price = crossing(0.5) + PRICES["table"] * math.dist((0, 0.7, 0), (0, 0, 1)) + crossing(1.0) + PRICES["floor"] * 2.0
+    cost = (
+        crossing(0.5)
+        + COST_PER_M["table"] * math.dist((0, 0.7, 0), (0, 0, 1))
+        + crossing(1.0)
+        + COST_PER_M["floor"] * 2.0
+    )
     for _ in range(2):
         assert paths.least_costs([("floor", (2.0, 0.0, 1.0))]) == pytest.approx(
-            [price, math.inf, math.inf, math.inf], rel=1e-12
+            [cost, math.inf, math.inf, math.inf], rel=1e-12
         )
 
 
@@ -79,16 +84,16 @@ def test_pruned_search_finds_every_path() -> None:
     contacts = [
         Contact(f"t{i:03d}", "floor", (*rng.uniform(0, 9, 2).tolist(), 0.0)) for i in range(60) for _ in range(3)
     ]
-    prices = {"floor": 0.3} | {f"t{i:03d}": float(rng.uniform(0.01, 1)) for i in range(60)}
-    arrivals = cheapest_arrivals(prices, contacts, [0.0] * 180, ["t000"], None)
+    cost_per_m = {"floor": 0.3} | {f"t{i:03d}": float(rng.uniform(0.01, 1)) for i in range(60)}
+    arrivals = cheapest_arrivals(cost_per_m, contacts, [0.0] * 180, ["t000"], None)
     import networkx
 
     graph = networkx.Graph()
-    for name in prices:
+    for name in cost_per_m:
         own = [c for c in contacts if name in (c.a, c.b)]
         for i, one in enumerate(own):
             for two in own[:i]:
-                apart = math.dist(one.point_m, two.point_m) * (0.0 if name == "t000" else prices[name])
+                apart = math.dist(one.point_m, two.point_m) * (0.0 if name == "t000" else cost_per_m[name])
                 graph.add_edge(
                     one.point_m,
                     two.point_m,
@@ -96,7 +101,7 @@ def test_pruned_search_finds_every_path() -> None:
                 )
     truth = networkx.multi_source_dijkstra_path_length(graph, {c.point_m for c in contacts if c.a == "t000"})
     for point, cost in zip(arrivals["floor"].points_m.tolist(), arrivals["floor"].costs[0], strict=True):
-        best = arrivals_at(arrivals, prices, ["t000"], "floor", [point])[0, 0]
+        best = arrivals_at(arrivals, cost_per_m, ["t000"], "floor", [point])[0, 0]
         assert best == pytest.approx(truth[tuple(point)], abs=1e-12)
         assert cost >= best - 1e-12
 
@@ -107,9 +112,9 @@ def test_path_costs_do_not_depend_on_query_frequency(rigid: dict[str, float]) ->
     names = [f"x{i}" for i in range(12)]
     graph = ContactGraph(scene(*(box(name, (0.1, 0.1, 0.1), (i, 0, 0)) for i, name in enumerate(names))))
     # The last object has no known material.
-    prices = {name: float(rng.uniform(0.05, 1.0)) for name in names[:-1]} | rigid
+    cost_per_m = {name: float(rng.uniform(0.05, 1.0)) for name in names[:-1]} | rigid
     sources = ("x0", "x4", "x11")
-    paths, limited = (LivePaths(graph, prices, crossing, sources, None) for _ in range(2))
+    paths, limited = (LivePaths(graph, cost_per_m, crossing, sources, None) for _ in range(2))
     limits = [0.2, 0.5, 1.0]
     reached = 0
     for _ in range(30):
@@ -117,10 +122,10 @@ def test_path_costs_do_not_depend_on_query_frequency(rigid: dict[str, float]) ->
         weights = [0.3, 1.0, 1.0]
         given = [Contact(a, b, tuple(rng.uniform(0, 1, 3)), weight=w) for a, b in sorted(pairs) for w in weights]
         graph.update({}, contacts=given)
-        arrivals = cheapest_arrivals(prices, given, [crossing(one.weight) for one in given], sources, None)
+        arrivals = cheapest_arrivals(cost_per_m, given, [crossing(one.weight) for one in given], sources, None)
         for touched in (*names, *names, *names):
             point = tuple(rng.uniform(0, 1, 3).tolist())
-            expected = arrivals_at(arrivals, prices, sources, touched, [point])[0]
+            expected = arrivals_at(arrivals, cost_per_m, sources, touched, [point])[0]
             np.testing.assert_allclose(paths.least_costs([(touched, point)]), expected, rtol=1e-12)
             for found, true, limit in zip(
                 limited.least_costs([(touched, point)], limits), expected, limits, strict=True
@@ -131,7 +136,7 @@ def test_path_costs_do_not_depend_on_query_frequency(rigid: dict[str, float]) ->
 
 
 @pytest.mark.parametrize("max_hops", [3, None])
-def test_an_object_without_a_price_passes_nothing_on(max_hops: int | None) -> None:
+def test_an_object_without_a_cost_per_metre_passes_nothing_on(max_hops: int | None) -> None:
     contacts = [Contact("radio", "rug", (0.0, 0.0, 0.0)), Contact("rug", "table", (1.0, 0.0, 0.0))]
     arrivals = cheapest_arrivals({"table": 1.0}, contacts, [0.0, 0.0], ["radio"], max_hops)
     assert not np.isfinite(arrivals["table"].costs).any()
@@ -163,7 +168,7 @@ def test_an_impact_is_not_searched_for_where_it_is_far_too_faint() -> None:
 @pytest.mark.parametrize("max_hops", [1, 2, 3, None])
 def test_path_costs_are_exact_up_to_the_cut_off(max_hops: int | None) -> None:
     graph = room()
-    limited, free = (LivePaths(graph, PRICES, crossing, SOURCES, max_hops) for _ in range(2))
+    limited, free = (LivePaths(graph, COST_PER_M, crossing, SOURCES, max_hops) for _ in range(2))
     rng = np.random.default_rng(2)
     n_within = n_beyond = 0
     for step in range(6):
@@ -171,7 +176,7 @@ def test_path_costs_are_exact_up_to_the_cut_off(max_hops: int | None) -> None:
         limits = rng.uniform(0.0, 0.5, len(SOURCES)).tolist()
         # Often enough that the distances around each source are cached, too.
         for _ in range(12):
-            for touched in PRICES:
+            for touched in COST_PER_M:
                 point = tuple(rng.uniform(-1, 1, 3).tolist())
                 for found, true, limit in zip(
                     limited.least_costs([(touched, point)], limits),
@@ -224,15 +229,15 @@ def floor_with_cups() -> tuple[ContactGraph, dict[str, float]]:
     return graph, {"floor": 0.3, "radio": 0.2, "mat": 0.2, "fan": 0.2} | dict.fromkeys(cups, 0.1)
 
 
-def noted(graph: ContactGraph, prices: dict[str, float], max_hops: int | None = None) -> Noted:
-    paths = Noted(prices, {"radio": 0, "fan": 1}, {1.0: 0.0}, max_hops)
+def noted(graph: ContactGraph, cost_per_m: dict[str, float], max_hops: int | None = None) -> Noted:
+    paths = Noted(cost_per_m, {"radio": 0, "fan": 1}, {1.0: 0.0}, max_hops)
     paths.update(None, graph.beside)
     return paths
 
 
 def test_search_skips_objects_too_far_from_any_source() -> None:
-    graph, prices = floor_with_cups()
-    paths = noted(graph, prices)
+    graph, cost_per_m = floor_with_cups()
+    paths = noted(graph, cost_per_m)
     assert paths.cheapest([("floor", (0, 0, 0))], None, {0})[0] == pytest.approx(0.3)
     assert set(paths.left) == {"floor"}
     # The limit of one source may be too low even if the limit of another is not.
@@ -242,15 +247,15 @@ def test_search_skips_objects_too_far_from_any_source() -> None:
 
 
 def test_search_ignores_sources_not_connected_to_a_touch() -> None:
-    graph, prices = floor_with_cups()
-    paths = noted(graph, prices)
+    graph, cost_per_m = floor_with_cups()
+    paths = noted(graph, cost_per_m)
     everywhere = paths.cheapest([("floor", (0, 0, 0))])
     assert everywhere == [pytest.approx(0.3), math.inf]
     assert {"cup0", "cup8"} < set(paths.left)
     paths.left = ()
     assert paths.cheapest([("floor", (0, 0, 0))], None, {0}) == everywhere
     assert set(paths.left) == {"floor"}
-    live = LivePaths(graph, prices, crossing, ["radio", "fan"], None)
+    live = LivePaths(graph, cost_per_m, crossing, ["radio", "fan"], None)
     assert live.least_costs([("floor", (0, 0, 0))], None, {0}) == live.least_costs([("floor", (0, 0, 0))])
 
 
@@ -264,8 +269,8 @@ def test_the_ball_around_a_source_does_not_depend_on_the_version_of_python() -> 
 
 
 def test_with_two_contacts_left_only_neighbours_of_sources_are_entered() -> None:
-    graph, prices = floor_with_cups()
-    paths = noted(graph, prices, 2)
+    graph, cost_per_m = floor_with_cups()
+    paths = noted(graph, cost_per_m, 2)
     assert paths.cheapest([("floor", (0, 0, 0))]) == [pytest.approx(0.3), math.inf]
     assert set(paths.left) == {"floor"}
 
@@ -273,7 +278,7 @@ def test_with_two_contacts_left_only_neighbours_of_sources_are_entered() -> None
 @pytest.mark.parametrize("max_hops", [1, 2, 3, None])
 def test_several_touches_of_a_hand_have_the_least_of_their_costs(max_hops: int | None) -> None:
     graph = room()
-    paths = LivePaths(graph, PRICES, crossing, SOURCES, max_hops)
+    paths = LivePaths(graph, COST_PER_M, crossing, SOURCES, max_hops)
     touched = [
         ("floor", (0.5, 0.0, 0.0)),
         ("cup", (0.2, 0.8, 0.1)),
@@ -293,9 +298,9 @@ def test_a_detour_over_more_contacts_does_not_hide_a_dearer_path_over_fewer() ->
     given = [Contact(a, b, (float(i), 0.0, 0.0)) for i, (a, b) in enumerate(pairs)]
     given.append(Contact("x0", "x2", (1.0, 1.0, 0.0), weight=0.01))
     graph.update({}, contacts=given)
-    prices = dict.fromkeys(names[:4], 0.001)
+    cost_per_m = dict.fromkeys(names[:4], 0.001)
     dear, cheap = (
-        LivePaths(graph, prices, crossing, ["source"], n).least_costs([("x0", (0, 0, 0))])[0] for n in (3, 4)
+        LivePaths(graph, cost_per_m, crossing, ["source"], n).least_costs([("x0", (0, 0, 0))])[0] for n in (3, 4)
     )
     assert cheap < crossing(0.01) < dear < math.inf
     assert dear == pytest.approx(2 * crossing(1.0) + crossing(0.01) + 0.001 * (2 * math.sqrt(2) + 1), rel=1e-12)
@@ -307,10 +312,10 @@ def test_a_network_that_is_updated_answers_as_a_new_one_bit_for_bit(max_hops: in
     rng = np.random.default_rng(5)
     names = [f"x{i}" for i in range(12)]
     graph = ContactGraph(scene(*(box(name, (0.1, 0.1, 0.1), (i, 0, 0)) for i, name in enumerate(names))))
-    prices = {name: float(rng.uniform(0.05, 0.5)) for name in names[:10]}
+    cost_per_m = {name: float(rng.uniform(0.05, 0.5)) for name in names[:10]}
     sources, pairs = ["x1", "x7", "x11"], [(a, b) for a in names for b in names if a < b]
     contacts: dict[tuple[str, str], list[Contact]] = {}
-    kept = LivePaths(graph, prices, crossing, sources, max_hops)
+    kept = LivePaths(graph, cost_per_m, crossing, sources, max_hops)
     n_finite = 0
     for step in range(200):
         for k in rng.permutation(len(pairs))[: rng.integers(0, 3)]:
@@ -325,7 +330,7 @@ def test_a_network_that_is_updated_answers_as_a_new_one_bit_for_bit(max_hops: in
         graph.update({}, contacts=[one for several in contacts.values() for one in several])
         if step % 7 < 5 or 100 < step < 130:  # several changes without a query, once more than the log holds
             continue
-        fresh = LivePaths(graph, prices, crossing, sources, max_hops)
+        fresh = LivePaths(graph, cost_per_m, crossing, sources, max_hops)
         for touched in names[:10]:
             expected = fresh.least_costs([(touched, (0.0, 0.0, 0.0))])
             assert kept.least_costs([(touched, (0.0, 0.0, 0.0))]) == expected
@@ -336,17 +341,17 @@ def test_a_network_that_is_updated_answers_as_a_new_one_bit_for_bit(max_hops: in
 def test_paths_succeed_others_when_objects_and_sources_come_and_go() -> None:
     rng = np.random.default_rng(4)
     graph = room()
-    paths, prices, sources = LivePaths(graph, PRICES, crossing, SOURCES, None), PRICES, SOURCES
+    paths, cost_per_m, sources = LivePaths(graph, COST_PER_M, crossing, SOURCES, None), COST_PER_M, SOURCES
     for step in range(60):
-        former = paths, prices, sources
-        prices = {x: per_m for x, per_m in {**PRICES, "lamp": 0.3}.items() if rng.random() < 0.8}
+        former = paths, cost_per_m, sources
+        cost_per_m = {x: per_m for x, per_m in {**COST_PER_M, "lamp": 0.3}.items() if rng.random() < 0.8}
         sources = tuple(rng.permutation([x for x in (*SOURCES, "cup") if rng.random() < 0.7]).tolist())
-        paths = LivePaths(graph, prices, crossing, sources, None)
+        paths = LivePaths(graph, cost_per_m, crossing, sources, None)
         paths.succeed(former[0])
         graph.update({"phone": Pose((0.2, 0.705 + 0.2 * (step % 2), 0.1)), "radio": Pose((-0.3, 0.75, 0.005 * step))})
-        for touched in PRICES:
+        for touched in COST_PER_M:
             where = [(touched, tuple(rng.uniform(-1, 1, 3).tolist()))]
             # The former ones still answer, of their own sources: the gains of an earlier frame may be read late.
-            for one, its_prices, its_sources in (former, (paths, prices, sources))[step % 3 == 0 :]:
-                fresh = LivePaths(graph, its_prices, crossing, its_sources, None)
+            for one, its_per_m, its_sources in (former, (paths, cost_per_m, sources))[step % 3 == 0 :]:
+                fresh = LivePaths(graph, its_per_m, crossing, its_sources, None)
                 assert one.least_costs(where) == fresh.least_costs(where)

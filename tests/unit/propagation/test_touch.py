@@ -9,16 +9,16 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, Material, ModalPlate, Plate, Pose, materials
+from scene2hap.propagation import elastic_body
 from scene2hap.propagation.bands.band_shapes import CLOSE, band_gains
 from scene2hap.propagation.bands.octaves import OctaveSums
 from scene2hap.propagation.bands.sampling import Sampling
-from scene2hap.propagation.coupled import solved_object
-from scene2hap.propagation.coupled.rigid import RigidMotion
-from scene2hap.propagation.coupled.solved_object import contracted, pieces
-from scene2hap.propagation.coupled.split_body import SplitBody
-from scene2hap.propagation.lattice.lattice_body import lattice_body
-from scene2hap.propagation.modal import modal_body
-from scene2hap.propagation.modal.modal_body import ModalBody
+from scene2hap.propagation.bodies import modal_body
+from scene2hap.propagation.bodies.lattice_body import lattice_body
+from scene2hap.propagation.bodies.modal_body import ModalBody
+from scene2hap.propagation.bodies.rigid import RigidMotion
+from scene2hap.propagation.bodies.split_body import SplitBody
+from scene2hap.propagation.elastic_body import contracted, pieces
 from scene2hap.propagation.protocol import ExpectantField
 
 STEEL = Plate(0.65, 0.42, 0.002, materials.lookup("steel"))
@@ -152,7 +152,7 @@ def test_field_after_one_move_equals_a_new_field(bands: Bands) -> None:
 def test_sources_beyond_the_folding_limit_are_summed(monkeypatch: pytest.MonkeyPatch) -> None:
     field, points = ModalPlate().prepare(scene(), SOURCES, Bands.dominant()), [(0.31, 0.22, 0.0), (0.12, 0.4, 0.0)]
     few = field.attenuation("top", points)
-    monkeypatch.setattr(solved_object, "MOST_CONTRACTED", 2)
+    monkeypatch.setattr(elastic_body, "MOST_CONTRACTED", 2)
     monkeypatch.setattr(ModalBody, "response_basis", None)
     many = ModalPlate().prepare(scene(), SOURCES, Bands.dominant()).attenuation("top", points)
     np.testing.assert_allclose(many, few, rtol=1e-12)

@@ -16,19 +16,19 @@ Point = tuple[float, float, float]
 
 
 def _scene(seed: int) -> tuple[dict[str, float], list[Contact], list[float]]:
-    """Random prices of ten objects, and contacts between them."""
+    """Random costs per metre of ten objects, and contacts between them."""
     rng = np.random.default_rng(seed)
     ids = [f"o{i}" for i in range(10)]
-    prices = {x: float(rng.uniform(0, 2)) for x in ids[:9]}  # o9 passes nothing on
+    cost_per_m = {x: float(rng.uniform(0, 2)) for x in ids[:9]}  # o9 passes nothing on
     contacts = []
     for _ in range(18):
         a, b = sorted(rng.choice(ids, 2, replace=False).tolist())
         contacts.append(Contact(a, b, tuple(rng.uniform(-1, 1, 3).tolist())))
-    return prices, contacts, rng.uniform(0, 0.3, len(contacts)).tolist()
+    return cost_per_m, contacts, rng.uniform(0, 0.3, len(contacts)).tolist()
 
 
 def _expected_cost(
-    prices: dict[str, float], contacts: list[Contact], crossing: list[float], source: str, on: str, point_m: Point
+    cost_per_m: dict[str, float], contacts: list[Contact], crossing: list[float], source: str, on: str, point_m: Point
 ) -> float:
     """The length of the shortest path over nodes (object, contact), a contact point of each of its objects."""
     graph: nx.DiGraph = nx.DiGraph()
@@ -37,20 +37,20 @@ def _expected_cost(
             graph.add_edge((here, i), (there, i), weight=crossing[i])
             if here == source:
                 graph.add_edge("start", (here, i), weight=0.0)
-            if here in prices and here != source:
+            if here in cost_per_m and here != source:
                 for j, other in enumerate(contacts):
                     if j != i and here in (other.a, other.b):
                         length_m = math.dist(contact.point_m, other.point_m)
-                        graph.add_edge((here, i), (here, j), weight=prices[here] * length_m)
-            if here == on and on in prices:
-                graph.add_edge((here, i), "end", weight=prices[on] * math.dist(contact.point_m, point_m))
+                        graph.add_edge((here, i), (here, j), weight=cost_per_m[here] * length_m)
+            if here == on and on in cost_per_m:
+                graph.add_edge((here, i), "end", weight=cost_per_m[on] * math.dist(contact.point_m, point_m))
     if "start" not in graph or "end" not in graph or not nx.has_path(graph, "start", "end"):
         return math.inf
     return float(nx.shortest_path_length(graph, "start", "end", weight="weight"))
 
 
 def _costs(
-    source: str, legs: tuple[Leg, ...], prices: dict[str, float], contacts: list[Contact], crossing: list[float]
+    source: str, legs: tuple[Leg, ...], cost_per_m: dict[str, float], contacts: list[Contact], crossing: list[float]
 ) -> list[float]:
     """The cost up to the end of each leg, from the objects and points; each entry must be a contact of two objects."""
     cost, costs, behind = 0.0, [], source
@@ -59,7 +59,7 @@ def _costs(
         cost += min(
             c for one, c in zip(contacts, crossing, strict=True) if (one.a, one.b, one.point_m) == (*pair, leg.enter_m)
         )
-        cost += prices[leg.object_id] * math.dist(leg.enter_m, leg.leave_m)
+        cost += cost_per_m[leg.object_id] * math.dist(leg.enter_m, leg.leave_m)
         costs.append(cost)
         behind = leg.object_id
     return costs
@@ -67,19 +67,19 @@ def _costs(
 
 @pytest.mark.parametrize("seed", range(30))
 def test_a_way_costs_what_the_shortest_path_costs(seed: int) -> None:
-    prices, contacts, crossing = _scene(seed)
+    cost_per_m, contacts, crossing = _scene(seed)
     sources = ("o0", "o5", "o9", "alone")
-    traced = TracedPaths(prices, contacts, crossing, sources, None)
+    traced = TracedPaths(cost_per_m, contacts, crossing, sources, None)
     points_m = np.random.default_rng(seed + 100).uniform(-1, 1, (3, 3))
-    for on in prices:
+    for on in cost_per_m:
         entered = traced.entered(on, points_m)
         for source, sides in zip(sources, entered.tolist(), strict=True):
             if source == on:
                 continue
             for side, at in zip(sides, points_m.tolist(), strict=True):
                 point_m = (at[0], at[1], at[2])
-                expected = _expected_cost(prices, contacts, crossing, source, on, point_m)
-                back = PathsToPoint(prices, contacts, crossing, None, on, point_m).legs(source)
+                expected = _expected_cost(cost_per_m, contacts, crossing, source, on, point_m)
+                back = PathsToPoint(cost_per_m, contacts, crossing, None, on, point_m).legs(source)
                 if math.isinf(expected):
                     assert (side, back) == (-1, None)
                     continue
@@ -88,11 +88,11 @@ def test_a_way_costs_what_the_shortest_path_costs(seed: int) -> None:
                 assert (way.objects[0], way.objects[-1]) == (source, on)
                 there = tuple(map(Leg, way.objects[1:], way.entries_m, (*way.entries_m[1:], point_m), way.costs))
                 for legs in (there, back):
-                    assert _costs(source, legs, prices, contacts, crossing)[-1] == pytest.approx(expected, rel=1e-9)
-                within = [prices[leg.object_id] * math.dist(leg.enter_m, leg.leave_m) for leg in there]
-                up_to = np.subtract(_costs(source, there, prices, contacts, crossing), within).tolist()
+                    assert _costs(source, legs, cost_per_m, contacts, crossing)[-1] == pytest.approx(expected, rel=1e-9)
+                within = [cost_per_m[leg.object_id] * math.dist(leg.enter_m, leg.leave_m) for leg in there]
+                up_to = np.subtract(_costs(source, there, cost_per_m, contacts, crossing), within).tolist()
                 assert way.costs == pytest.approx(up_to, abs=1e-12)
-                assert [leg.cost for leg in back] == pytest.approx(_costs(source, back, prices, contacts, crossing))
+                assert [leg.cost for leg in back] == pytest.approx(_costs(source, back, cost_per_m, contacts, crossing))
 
 
 def test_a_way_crosses_no_more_contacts_than_allowed() -> None:
@@ -104,13 +104,13 @@ def test_a_way_crosses_no_more_contacts_than_allowed() -> None:
         Contact("plank", "t1", (0.5, 0.0, 0.0)),
         Contact("plank", "t3", (2.5, 0.0, 0.0)),
     ]
-    prices = {"t1": 1.0, "t2": 1.0, "t3": 1.0, "plank": 5.0, "phone": 0.0}
+    cost_per_m = {"t1": 1.0, "t2": 1.0, "t3": 1.0, "plank": 5.0, "phone": 0.0}
     by_hops = {}
     for max_hops in (None, 3, 2):
-        traced = TracedPaths(prices, contacts, [0.0] * 5, ("phone",), max_hops)
+        traced = TracedPaths(cost_per_m, contacts, [0.0] * 5, ("phone",), max_hops)
         side = int(traced.entered("t3", np.array([[3.0, 0.0, 0.0]]))[0, 0])
         by_hops[max_hops] = traced.way("phone", side).objects if side >= 0 else ()
-        back = PathsToPoint(prices, contacts, [0.0] * 5, max_hops, "t3", (3.0, 0.0, 0.0)).legs("phone")
+        back = PathsToPoint(cost_per_m, contacts, [0.0] * 5, max_hops, "t3", (3.0, 0.0, 0.0)).legs("phone")
         assert tuple(leg.object_id for leg in back or ()) == by_hops[max_hops][1:]
         assert [leg.cost for leg in back or ()] == pytest.approx([1.0, 2.0, 3.0] if back else [])
     assert by_hops == {None: ("phone", "t1", "t2", "t3"), 3: ("phone", "t1", "t2", "t3"), 2: ()}
@@ -156,10 +156,10 @@ def test_no_contact_and_no_source_give_no_path() -> None:
 def test_a_row_of_objects_may_be_longer_than_pythons_stack() -> None:
     n = 1500
     contacts = [Contact(f"o{i:04d}", f"o{i + 1:04d}", (float(i), 0.0, 0.0)) for i in range(n)]
-    prices = {f"o{i:04d}": 0.0 for i in range(n + 1)}
-    legs = PathsToPoint(prices, contacts, [0.1] * n, None, f"o{n:04d}", (float(n), 0.0, 0.0)).legs("o0000")
+    cost_per_m = {f"o{i:04d}": 0.0 for i in range(n + 1)}
+    legs = PathsToPoint(cost_per_m, contacts, [0.1] * n, None, f"o{n:04d}", (float(n), 0.0, 0.0)).legs("o0000")
     assert legs is not None
-    assert ["o0000", *(leg.object_id for leg in legs)] == list(prices)
+    assert ["o0000", *(leg.object_id for leg in legs)] == list(cost_per_m)
 
 
 def test_memory_does_not_grow_with_sources_times_contacts_squared() -> None:
@@ -170,10 +170,10 @@ def test_memory_does_not_grow_with_sources_times_contacts_squared() -> None:
     rng = np.random.default_rng(1)
     names = [f"o{i}" for i in range(50)]
     contacts = [Contact(name, "floor", (*rng.uniform(0, 9, 2).tolist(), 0.0)) for name in names for _ in range(4)]
-    prices = {"floor": 1.0} | dict.fromkeys(names, 0.1)
+    cost_per_m = {"floor": 1.0} | dict.fromkeys(names, 0.1)
     tracemalloc.start()
     try:
-        TracedPaths(prices, contacts, [0.0] * len(contacts), names, None)
+        TracedPaths(cost_per_m, contacts, [0.0] * len(contacts), names, None)
         _, peak = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()

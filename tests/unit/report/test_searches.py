@@ -17,9 +17,9 @@ def test_one_search_serves_levels_paths_and_contacts(kitchen_bundle: Path, monke
     n_sources = []
     search = prepared_paths.least_costs
 
-    def counted(price_per_m: Any, sides: Any, source_ids: Any) -> Any:
+    def counted(cost_per_m: Any, sides: Any, source_ids: Any) -> Any:
         n_sources.append(len(source_ids))
-        return search(price_per_m, sides, source_ids)
+        return search(cost_per_m, sides, source_ids)
 
     def refused(*_: object) -> None:
         raise AssertionError("searched from a point")

@@ -35,9 +35,9 @@ def ears(bands: Bands, **settings: Any) -> tuple[Any, Audibility, CutoffCost]:
     return field, audibility, CutoffCost(field, audibility, excitations)
 
 
-def felt_at(field: Any, audibility: Audibility, prices: list[float], levels: np.ndarray) -> np.ndarray:
-    gains = field.at([prices]) * levels[:, None]
-    return audibility.felt(gains.astype(np.float32), range(len(prices)))[0] / audibility.least_felt
+def felt_at(field: Any, audibility: Audibility, costs: list[float], levels: np.ndarray) -> np.ndarray:
+    gains = field.at([costs]) * levels[:, None]
+    return audibility.felt(gains.astype(np.float32), range(len(costs)))[0] / audibility.least_felt
 
 
 @pytest.mark.parametrize("bands", ALL_BANDS, ids=["dominant", "octaves"])
@@ -47,14 +47,14 @@ def test_sources_are_felt_within_the_audible_distance_only(bands: Bands, levels:
     edge = cutoff.felt(levels)
     assert (felt_at(field, audibility, edge, levels) < 1).all()
     # The cost table has steps of 6 %.
-    assert (felt_at(field, audibility, [0.94 * price for price in edge], levels) >= 1).all()
+    assert (felt_at(field, audibility, [0.94 * cost for cost in edge], levels) >= 1).all()
 
 
 @pytest.mark.parametrize("bands", ALL_BANDS, ids=["dominant", "octaves"])
 def test_reported_gains_beyond_the_audible_distance_end_at_zero(bands: Bands) -> None:
     field, _, cutoff = ears(bands)
     edge = cutoff.arrives(LEVELS)
-    gains = field.at([edge, [0.94 * price for price in edge]]).max(axis=2) * LEVELS
+    gains = field.at([edge, [0.94 * cost for cost in edge]]).max(axis=2) * LEVELS
     assert (gains[0] < SILENT).all()
     assert (gains[1] >= SILENT).all()
     assert np.greater(edge, cutoff.felt(LEVELS)).all()

@@ -66,8 +66,8 @@ def test_live_field_gives_the_gains_of_a_prepared_field(settings: dict[str, Any]
     assert worst < 0.01
     # By cost, sources that cannot be felt are skipped even if their gain would have been 0 anyway.
     assert ours.skipped.below_threshold > 0
-    by_price = ("below_threshold", "silent_bands", "rows_not_mixed")
-    others = {name: value for name, value in vars(theirs.skipped).items() if name in by_price}
+    by_cost = ("below_threshold", "silent_bands", "rows_not_mixed")
+    others = {name: value for name, value in vars(theirs.skipped).items() if name in by_cost}
     assert replace(ours.skipped, **others) == theirs.skipped
 
 
@@ -133,25 +133,25 @@ def test_invalid_gains_of_a_plugin_are_not_rendered(answer: float, told: float) 
     assert s.stats.gains_capped == (2 if answer > 1 else 0)
 
 
-class Priced(Guest):
+class WithPathCosts(Guest):
     """The same with a cost of 0 for everything; returns too many or too few costs or bands."""
 
-    def __init__(self, prices_more: int, bands_more: int) -> None:
+    def __init__(self, costs_more: int, bands_more: int) -> None:
         super().__init__(0.5)
-        self.prices_more, self.bands_more = prices_more, bands_more
+        self.costs_more, self.bands_more = costs_more, bands_more
         self.most = 1.0
 
-    def live(self, graph: Any, bodies: Any, excitations: Any, bands: Bands) -> "Priced":
+    def live(self, graph: Any, bodies: Any, excitations: Any, bands: Bands) -> "WithPathCosts":
         super().live(graph, bodies, excitations, bands)
         self.most = 1.0
         return self
 
-    def prices(self, hands: Sequence[Any], limits: Any = None, among: Any = None) -> list[list[float]]:
-        return [[0.0] * (len(self.source_ids) + self.prices_more) for _ in hands]
+    def path_costs(self, hands: Sequence[Any], limits: Any = None, among: Any = None) -> list[list[float]]:
+        return [[0.0] * (len(self.source_ids) + self.costs_more) for _ in hands]
 
-    def at(self, prices: list[list[float]], columns: Any = None) -> np.ndarray:
+    def at(self, costs: list[list[float]], columns: Any = None) -> np.ndarray:
         n_columns = len(self.source_ids) if columns is None else len(columns)
-        return np.full((len(prices), n_columns, self.n_bands + self.bands_more), self.answer)
+        return np.full((len(costs), n_columns, self.n_bands + self.bands_more), self.answer)
 
 
 def test_plugin_results_of_wrong_shape_raise_session_errors() -> None:
@@ -161,13 +161,13 @@ def test_plugin_results_of_wrong_shape_raise_session_errors() -> None:
 
     for model, told in (
         (Wide(0.5), r"shape \(1, 4, 1\); it must be \(1, 2, 1\)"),
-        (Priced(-1, 0), r"returned \[1\] prices for 1 hands"),
-        (Priced(0, 3), r"shape \(241, 2, 4\); it must be \(241, 2, 1\)"),
+        (WithPathCosts(-1, 0), r"returned \[1\] path costs for 1 hands"),
+        (WithPathCosts(0, 3), r"shape \(241, 2, 4\); it must be \(241, 2, 1\)"),
     ):
         s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": model})
         with pytest.raises(ModelDomainError, match=told):
             s.update(touches=[ON_TABLE])
-    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": Priced(0, 0)})
+    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": WithPathCosts(0, 0)})
     assert s.update(touches=[ON_TABLE]).gain("left", "phone") == 0.5
 
 

@@ -17,9 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.coupled.byte_bounded_lru import ByteBoundedLru
-from scene2hap.propagation.coupled.coupling import ElasticBody
-from scene2hap.propagation.coupled.response_basis import AnyFloat, HasResponseBasis, ResponseBasis
+from scene2hap.common.byte_bounded_lru import ByteBoundedLru
+from scene2hap.propagation.elastic_body import AnyFloat, ElasticBody, HasResponseBasis, ResponseBasis
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]

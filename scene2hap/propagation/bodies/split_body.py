@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.coupled.coupling import ElasticBody
-from scene2hap.propagation.coupled.solved_object import Pairs, contracted
-from scene2hap.propagation.infinite_plate import InfiniteBody
+from scene2hap.propagation.bodies.infinite_body import InfiniteBody
+from scene2hap.propagation.elastic_body import ElasticBody, Pairs, contracted
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]

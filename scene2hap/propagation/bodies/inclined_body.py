@@ -21,10 +21,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.coupled.coupling import ElasticBody
-from scene2hap.propagation.coupled.legged_body import LeggedBody
-from scene2hap.propagation.coupled.response_basis import AnyFloat, HasResponseBasis, ResponseBasis, real_times
-from scene2hap.propagation.coupled.rigid import RigidMotion
+from scene2hap.propagation.bodies.legged_body import LeggedBody
+from scene2hap.propagation.bodies.rigid import RigidMotion
+from scene2hap.propagation.elastic_body import (
+    AnyFloat,
+    ElasticBody,
+    HasResponseBasis,
+    ResponseBasis,
+    SpatialBody,
+    real_times,
+)
 from scene2hap.propagation.modal.in_plane import InPlaneModes, in_plane_modes
 from scene2hap.propagation.plate import Plate
 
@@ -90,9 +96,8 @@ class Held:
 
 
 @dataclass(frozen=True, eq=False)
-class InclinedBody:
-    """An `ElasticBody` between ports (n, 6): x, y and height over the mid-plane [m], and a unit direction, all in the
-    body's coordinates.
+class InclinedBody(SpatialBody):
+    """An `ElasticBody` that is also driven along its plane.
 
     Parameters: bending : the plate's motion along its normal, None for a compact body; motions : all other motions;
     strain_loss : loss factor of motions that strain the plate.
@@ -129,12 +134,6 @@ class InclinedBody:
         stiff = self.motions.squares * complex(1.0, self.strain_loss)
         yielding = self.motions.signs / (stiff - (2 * np.pi * frequencies_hz[:, None]) ** 2)
         return yielding.astype(np.complex128, copy=False)
-
-    def felt(self, points_m: Floats) -> Floats:
-        """Ports (3 n, 6) of points (n, 2) [m] in three directions: all points along the normal, then along y and x."""
-        n = len(points_m)
-        flat = np.column_stack([points_m, np.zeros(n)])
-        return np.concatenate([np.column_stack([flat, np.tile(axis, (n, 1))]) for axis in np.eye(3)[::-1]])
 
 
 class InclinedShapes(InclinedBody):
@@ -218,21 +217,3 @@ def _bending(ports: Floats) -> tuple[NDArray[np.intp], Floats, Floats]:
     """Indices of the ports with a component along the normal, their positions (n, 2) [m], and this component."""
     rows = np.flatnonzero(np.abs(ports[:, 5]) > _ASIDE)
     return rows, np.ascontiguousarray(ports[rows, :2]), ports[rows, 5]
-
-
-def felt_ports(body: ElasticBody, points_m: Floats) -> Floats:
-    """Points of a body, or the ports of an inclined body: one for each direction at each point."""
-    return body.felt(points_m) if isinstance(body, InclinedBody) else points_m
-
-
-class FeltInSpace:
-    """Gains of a body that moves in three directions: the length of the motion, from its three components."""
-
-    def __init__(self, gains: Callable[[Floats], Floats], body: InclinedBody) -> None:
-        self._gains, self._body = gains, body
-
-    def __call__(self, points_m: Floats) -> Floats:
-        """See `Gains`."""
-        each = np.square(self._gains(self._body.felt(points_m)))
-        lengths: Floats = np.sqrt(each.reshape(3, len(points_m), *each.shape[1:]).sum(axis=0))
-        return lengths

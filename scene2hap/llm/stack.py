@@ -1,4 +1,4 @@
-"""The common part of all wrappers: an inner backend, its identity and its reports."""
+"""Backends in a stack: the common part of all wrappers, with an inner backend, its identity and its reports."""
 
 from __future__ import annotations
 

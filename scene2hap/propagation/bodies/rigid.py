@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.coupled.response_basis import AnyFloat, real_times
+from scene2hap.propagation.elastic_body import AnyFloat, real_times
 from scene2hap.propagation.modal.modes import beam_hz, first_bending_hz
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.scene.surface.outline import Outline
