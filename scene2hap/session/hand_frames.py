@@ -105,8 +105,9 @@ class HandFrames:
         self.levels_changed()
 
     def use_hands(self, hands: tuple[str, ...]) -> None:
-        """Use other hands."""
+        """Use other hands. Those that remain keep their touches."""
         self._hands = hands
+        self._felt = {hand: self._felt[hand] for hand in hands if hand in self._felt}
         self.levels_changed()
 
     def frame(self, felt: Felt, moved: Collection[str], *, is_paused: bool) -> tuple[HapticFrame, HandGains | None]:
@@ -132,7 +133,7 @@ class HandFrames:
     def felt(self) -> Felt:
         """The touches of the last frame, of objects that are still there."""
         objects = self._state.objects
-        return {i: [one for one in touches if one.object_id in objects] for i, touches in self._felt.items()}
+        return {hand: [one for one in touches if one.object_id in objects] for hand, touches in self._felt.items()}
 
     @property
     def field(self) -> object:
@@ -154,8 +155,7 @@ class HandFrames:
     def explain(self, hand: str, *, is_paused: bool) -> Explanation:
         """Explain each source that a hand felt at the last frame (gain and path), or why the hand felt none."""
         self._catch_up()
-        felt = (touch for touches in self._felt.values() for touch in touches)
-        touches = [touch for touch in felt if touch.hand == hand and touch.object_id in self._state.objects]
+        touches = self.felt.get(hand, [])
         levels = self._levels_at(hand)
         gains = self._touch_gains(self.keeper.unnoted(self._sources.ids, self._reach, len(touches)), Counts())
         explainer = Explainer(self._state, self._sources, self._config.propagation, self.keeper.field, gains, levels)
@@ -248,7 +248,7 @@ class HandFrames:
         field = self.keeper.method(self._sources.ids, self._reach)
         if self._method is None or self._method_field is not field:
             self._method, self._method_field = self._new_method(field), field
-        gained = self._method.of_hands(len(self._hands), felt)
+        gained = self._method.of_hands(self._hands, felt)
         return gained if personal is None else personal.applied(gained)
 
     def _new_method(self, field: LiveField) -> GainMethod:

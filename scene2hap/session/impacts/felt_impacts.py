@@ -181,14 +181,16 @@ class Impacts:
     ) -> None:
         at_frame, f = impact.at_sample, burst.frequencies_hz
         # A hand may be removed before a worker has the gains.
-        outputs = self._playback.outputs
-        touched: dict[int, list[TouchedPoint]] = {i: [(x.object_id, x.point_m) for x in felt[i]] for i in felt}
+        outputs = dict(zip(hands, self._playback.outputs, strict=True))
+        touched: dict[str, list[TouchedPoint]] = {
+            hand: [(x.object_id, x.point_m) for x in touches] for hand, touches in felt.items()
+        }
 
-        def sound(gains: Floats, begin: int, among: Collection[int]) -> None:
+        def sound(gains: Floats, begin: int, among: Collection[str]) -> None:
             # Most impacts of a busy scene are too far from every hand.
             if len(gains) and gains.max() * PEAK >= LEAST_GAIN:
-                waves, its = self._waves(burst), {outputs[i]: hands[i] for i in among}
-                levels = self._levels(burst, waves, [*its.values()], profile)
+                waves, its = self._waves(burst), {hand: outputs[hand] for hand in among}
+                levels = self._levels(burst, waves, [*its], profile)
                 self._sound(impact, burst, waves, levels * self._capped(gains), its, begin)
 
         live = self._live()
@@ -201,7 +203,7 @@ class Impacts:
             answer = self._ahead.answer(impact.object_id, impact.point_m, touched, f)
             if answer is not None:
                 sound(answer.gains, at_frame, answer.among)
-                left = {i: hand for i, hand in touched.items() if i not in answer.among}
+                left = {hand: its for hand, its in touched.items() if hand not in answer.among}
         if left:
             model, hands_left = self._config.propagation, [*left.values()]
             prepared = struck_later(model, self._state, impact.object_id, impact.point_m, hands_left, f)
@@ -279,12 +281,12 @@ class Impacts:
         burst: Burst,
         waves: list[Samples],
         weights: Floats,
-        outputs: Mapping[int, str],
+        outputs: Mapping[str, int],
         at_frame: int,
     ) -> None:
         felt: dict[int, list[float]] = {}
         was_felt = bool(impact.felt)
-        for (output, hand), row in zip(outputs.items(), weights, strict=True):
+        for (hand, output), row in zip(outputs.items(), weights, strict=True):
             if row.max() >= LEAST_GAIN:
                 felt[output] = row.tolist()
                 impact.felt[hand] = peak_of(waves, row, burst.decays_s, self._config.sample_rate_hz)
