@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable, Collection, Mapping
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from concurrent.futures import Future, wait
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -34,6 +34,7 @@ from scene2hap.session.impacts.landings import Landings
 from scene2hap.session.mix.playback import Playback
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.user_profile import UserProfile
+from scene2hap.session.worker_threads import WorkerPool
 
 if TYPE_CHECKING:
     from scene2hap.session.impacts.struck_ahead import StruckAhead
@@ -116,8 +117,8 @@ class Impacts:
         self._looked_at: object = None
         self._point_field: PointField | None = None
         # Several workers, since preparing a scene in advance, or for an impact, may take longer than another impact may
-        # wait. Their threads start with the first task.
-        self._workers = ThreadPoolExecutor(3, thread_name_prefix="scene2hap impacts")
+        # wait.
+        self._workers = WorkerPool(3, "impacts")
         self._waiting: list[Future[None]] = []
         self._ahead = self._prepared_ahead() if config.prepares_impacts else None
         self._recent: deque[Impact] = deque(maxlen=KEPT)

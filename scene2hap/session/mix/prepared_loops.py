@@ -10,9 +10,9 @@ from __future__ import annotations
 import hashlib
 import math
 from collections import OrderedDict
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from weakref import WeakValueDictionary, finalize
 
 import numpy as np
@@ -24,6 +24,7 @@ from scene2hap.audio.threshold import threshold_db
 from scene2hap.common.forks import lock_of_process, renew_in_child
 from scene2hap.haptics import Bands
 from scene2hap.render.loop_bank import LoopBank
+from scene2hap.session.worker_threads import WorkerPool
 
 KEPT_BYTES = 32 * 2**20
 """Size of the cache of the newest loops, whose clips may be gone."""
@@ -75,12 +76,12 @@ def prepare(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop
 
 def order(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> Future[PreparedLoop]:
     """Let a worker prepare a clip's loop."""
-    return _worker().submit(prepare, clip, bands, tactile_rate_hz)
+    return _worker().submit(partial(prepare, clip, bands, tactile_rate_hz))
 
 
 @lru_cache(maxsize=1)
-def _worker() -> ThreadPoolExecutor:
-    return ThreadPoolExecutor(1, thread_name_prefix="scene2hap loops")
+def _worker() -> WorkerPool:
+    return WorkerPool(1, "loops")
 
 
 renew_in_child(_worker.cache_clear)
