@@ -14,7 +14,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.errors import Scene2HapError
 from scene2hap.propagation.coupled.impact_scene import StruckScene
 from scene2hap.propagation.coupled.substructuring import prepare_struck
 from scene2hap.propagation.live import TouchedPoint
@@ -134,7 +133,7 @@ class StruckAhead:
         def work() -> None:
             try:
                 scene = prepare_struck(self._model, put_together(touched).network, touched)
-            except Scene2HapError:  # the field in use fails in the same way, and warns
+            except Exception:  # the field in use fails in the same way, and warns
                 self._prepared = None
             else:
                 self._prepared = bodies, scene

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from threading import Event
+from threading import Event, Thread
 from typing import Any
 
 import numpy as np
@@ -503,21 +503,66 @@ def held_up(monkeypatch: pytest.MonkeyPatch) -> tuple[HapticSession, Event]:
     return made, go_on
 
 
-def test_a_worker_may_add_an_impact_while_the_latest_are_listed() -> None:
+def test_impact_that_a_worker_prepares_sounds_before_the_next_update_which_reports_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    made, go_on = held_up(monkeypatch)
+    made.update(touches=touches())
+    made.wait_prepared()
+    impact = made.strike("table", STRUCK)
+    ((_, job),) = made._impacts._waiting
+    go_on.set()
+    job.result(30.0)
+    assert rendered(made, 0.2).any(axis=0).all()
+    assert not impact.felt  # a game may iterate over it, so only its own thread changes it
+    made.update(touches=touches())
+    assert set(impact.felt) == {"left", "right"}
+    assert made.impacts == (impact,)
+    assert made.stats.impacts_felt == 1
+
+
+def test_impact_that_a_worker_prepares_in_a_pause_is_not_felt(monkeypatch: pytest.MonkeyPatch) -> None:
+    made, go_on = held_up(monkeypatch)
+    made.update(touches=touches())
+    made.wait_prepared()
+    impact = made.strike("table", STRUCK)
+    made.pause()
+    go_on.set()
+    made.wait_prepared()
+    assert impact.felt == {}
+    assert made.impacts == ()
+    made.resume()
+    assert not rendered(made, 0.2).any()
+
+
+def test_burst_that_a_worker_starts_as_a_pause_begins_does_not_play_on_after_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     made = session()
-    recent = made._impacts._recent
+    playback, wave = made._playback, wave_of(100.0, 0.5, RATE)
+    worker = Thread(target=lambda: playback.start_burst([wave], {playback.outputs[0]: [0.5]}, 0))
+    fade = playback._bursts.fade
 
-    class Met:
-        felt: tuple[str, ...] = ()
+    def slow_fade(given: Any) -> None:
+        fade(given)
+        worker.start()
+        worker.join(0.1)
 
-        @property
-        def at_sample(self) -> int:
-            recent.append(later)
-            return 0
+    monkeypatch.setattr(playback._bursts, "fade", slow_fade)
+    made.pause()
+    worker.join()
+    rendered(made, 0.2)
+    made.resume()
+    assert not rendered(made, 0.2).any()
 
-    later = Impact("table", STRUCK, None, None, 100.0, 0)
-    recent.extend([later, Met()])  # type: ignore[list-item]
-    assert len(made.impacts) == 2
+
+def test_impact_for_which_a_model_fails_is_counted_as_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    made, _ = held_up(monkeypatch)
+    monkeypatch.setattr(felt_impacts, "struck_later", lambda *given: lambda: 1 / 0)
+    made.update(touches=touches())
+    assert not made.strike("table", STRUCK).felt
+    assert made.wait_prepared(30.0)
+    assert made.stats.impacts_left_out == 1
 
 
 @pytest.mark.parametrize("propagation", ["exponential_plate", "modal_plate"])

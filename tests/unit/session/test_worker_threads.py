@@ -74,6 +74,8 @@ worker_threads.LAST_S = 0.5
 begun = []
 
 class Model:
+    source_ids = ("alarm", "phone")
+
     def prepare(self, network, excitations, bands):
         if not {{"phone", "alarm"}} & {{x.source_id for x in excitations}}:  # for an impact
             begun.append(1)
