@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.cached_while_used import cached_while_used
 from scene2hap.propagation.bands.octaves import OctaveSums
-from scene2hap.propagation.cached_while_used import cached_while_used
 from scene2hap.propagation.coupled.byte_bounded_lru import ByteBoundedLru
 from scene2hap.propagation.coupled.many_joints import among, has_many, rows_at_once
 from scene2hap.propagation.coupled.response_basis import AnyFloat

@@ -156,6 +156,7 @@ class Playback:
         # Twice the ramp, since gain changes in quick succession may have to wait.
         fade_s = 2 * max(config.control_period_s, MIN_RAMP_S) + self._mixers[0].mixer.delay_s + 0.01
         self._fade_frames = round(fade_s * config.sample_rate_hz)
+        # The first loops play at once: `change_rows` finds what is prepared here.
         for row in rows:
             self._prepared(row)
         self.change_rows(rows, 0)
@@ -276,9 +277,8 @@ class Playback:
         new = [row for row in rows if row not in self._places and row not in self._coming]
         bands, rate_hz = self._config.bands, self._tactile_rate_hz
         for row in new:
-            if self._config.prepare == "blocking":
-                self._prepared(row)
-            loop = find(row.loop.tactile, bands, rate_hz)
+            is_blocking = self._config.prepare == "blocking"
+            loop = self._prepared(row) if is_blocking else find(row.loop.tactile, bands, rate_hz)
             if loop is None:
                 self._coming[row] = order(row.loop.tactile, bands, rate_hz)
             else:
