@@ -39,8 +39,7 @@ class HandFrames:
         self._config, self._state, self._sources, self._peaks = config, state, sources, peaks
         self._counts, self._n_updates = Counts(), 0
         self._excitations: Sequence[Excitation] | None = None
-        self._method: GainMethod | None = None
-        self._method_field: LiveField | None = None
+        self._method: tuple[LiveField, GainMethod] | None = None
         self._n_unreachable: int | None = None
         self._levels, self._are_levels_known = np.empty(0), False
         self._profile: UserProfile | None = None
@@ -240,12 +239,11 @@ class HandFrames:
                 self._counts.idle_hands += len(self._hands)
             return HandGains(lambda: silence, silence)
         self._known_levels()
-        personal = self._personal
         field = self.keeper.for_touches(self._sources.ids, self._reach)
-        if self._method is None or self._method_field is not field:
-            self._method, self._method_field = self._new_method(field), field
-        gained = self._method.of_hands(self._hands, felt)
-        return gained if personal is None else personal.applied(gained)
+        if self._method is None or self._method[0] is not field:
+            self._method = (field, self._new_method(field))
+        gained = self._method[1].of_hands(self._hands, felt)
+        return gained if self._personal is None else self._personal.applied(gained)
 
     def _new_method(self, field: LiveField) -> GainMethod:
         skip, counts = self._config.skip, self._counts

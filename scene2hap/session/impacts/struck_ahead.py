@@ -43,8 +43,9 @@ class Ordered(NamedTuple):
 
 
 class StruckAhead:
-    """Prepares the scene around touched objects. Call `expect` and `answer` on the game's thread.
+    """Prepares the scene around touched objects. Call all methods on the game's thread.
 
+    A worker publishes the newest scene in a single slot, so that an impact is felt with it before the next update.
     Parameters: submit : passes a function to a worker.
     """
 
