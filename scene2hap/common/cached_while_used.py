@@ -75,11 +75,15 @@ class cached_while_used(Generic[_Given, _Result]):
     """Cache the results of a function of hashable arguments, see `CacheWhileUsed`."""
 
     def __init__(self, function: Callable[_Given, _Result]) -> None:
-        self._function, self.cache = function, CacheWhileUsed[_Result](MOST_BYTES)
-        self.cache_clear = self.cache.clear
+        self._function = function
+        self.cache: CacheWhileUsed[_Result] = CacheWhileUsed(MOST_BYTES)
         update_wrapper(self, function)
 
     def __call__(self, *args: _Given.args, **kwargs: _Given.kwargs) -> _Result:
         """Return the result for these arguments."""
         key = (args, tuple(sorted(kwargs.items())))
         return self.cache.get(key, partial(self._function, *args, **kwargs))
+
+    def cache_clear(self) -> None:
+        """Forget all results, as the caches of functools do."""
+        self.cache.clear()
