@@ -114,7 +114,8 @@ def prepared_ahead(kind: str, scene: SceneSnapshot, bundle: HapticBundle, seed: 
         session.update(touches=[Touch("left", touched, hand)])
         session.wait_prepared()
         beside = [x for x in ids if x in state.graph.beside[touched]] or ids
-        others = [x for x in ids if x != touched and ahead.answer(x, hand, {0: [(touched, hand)]}, np.array([100.0]))]
+        felt = {"left": [(touched, hand)]}
+        others = [x for x in ids if x != touched and ahead.answer(x, hand, felt, np.array([100.0]))]
         for n in range(6):
             object_id = str(rng.choice(beside if n % 2 else others or beside)) if elsewhere else touched
             point = somewhere(state, object_id, rng)
@@ -129,7 +130,7 @@ def prepared_ahead(kind: str, scene: SceneSnapshot, bundle: HapticBundle, seed: 
             n_felt, n_next = n_felt + 1, n_next + is_next
             burst = burst_of(state.bodies[object_id], state.on_plate(object_id, point), speed_m_s=3.0, is_finger=True)
             f, weights = np.maximum(burst.frequencies_hz, LOWEST_HZ), burst.accelerations_m_s2**2
-            told = ahead.answer(object_id, point, {0: [(touched, hand)]}, f)
+            told = ahead.answer(object_id, point, felt, f)
             if told is not None:
                 own = struck_later(model, state, object_id, point, [[(touched, hand)]], f)()
                 ratio = (weights * told.gains**2).sum() / (weights * own**2).sum()

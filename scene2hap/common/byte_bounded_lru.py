@@ -7,25 +7,16 @@ from collections.abc import Callable, Iterator
 from inspect import ismethod
 from itertools import count
 from threading import Lock
-from typing import Any, ClassVar, Generic, Protocol, TypeVar
+from typing import Any, ClassVar, Generic, TypeVar
 from weakref import ReferenceType, WeakMethod, ref
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.cached_while_used import Sized
 from scene2hap.common.forks import lock_of_process
 
 MOST_BYTES = 128 * 2**20
-
-
-class Sized(Protocol):
-    """A value with a known size in memory, such as an array."""
-
-    @property
-    def nbytes(self) -> int:
-        """Memory [byte]."""
-        ...
-
 
 Answer = TypeVar("Answer", bound=Sized | tuple[Sized, ...])
 _Key = tuple[Any, ...]

@@ -97,7 +97,7 @@ def _refuse_touches(touches: object) -> NoReturn:
 
 
 def touches_by_hand(touches: Any, hands: Sequence[str], state: SceneState) -> Felt:
-    """Group touches, in any form that `given_touches` accepts, by the number of their hand.
+    """Group touches, in any form that `given_touches` accepts, by their hand.
 
     Raises: UnknownObject: an object is not in the scene; SessionError: an unknown hand, or another type.
     """
@@ -112,7 +112,7 @@ def touches_by_hand(touches: Any, hands: Sequence[str], state: SceneState) -> Fe
     for hand in by_hand:
         if hand not in hands:
             raise SessionError(unknown_hand(hand, hands))
-    return {i: by_hand[hand] for i, hand in enumerate(hands) if hand in by_hand}
+    return {hand: by_hand[hand] for hand in hands if hand in by_hand}
 
 
 def _grouped(touches: Sequence[Touch], hands: Collection[str], state: SceneState) -> dict[str, list[Touch]]:

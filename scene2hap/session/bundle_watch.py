@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-import threading
 from collections import deque
+from functools import partial
+from threading import Event
 from types import TracebackType
 from typing import Self
 
@@ -14,6 +15,7 @@ from scene2hap.common.calls import clear_calls
 from scene2hap.common.file_stamp import Stamp, file_stamp
 from scene2hap.errors import BundleError, Scene2HapError
 from scene2hap.session import HapticSession
+from scene2hap.session.worker_threads import start_worker
 
 POLL_S = 0.05
 """Interval between checks of the folder [s]. A saved bundle is read at once. Files edited by hand are read after they
@@ -39,9 +41,8 @@ class BundleWatch:
             raise BundleError(f"there is no folder {str(self._folder)!r} to watch; `bake` and `save` write one.")
         # A deque, since the worker may publish a bundle at any step of `update`.
         self._read: deque[HapticBundle] = deque(maxlen=1)
-        self._closed = threading.Event()
-        self._worker = threading.Thread(target=self._watch, args=(self._stamps(),), name="scene2hap-watch", daemon=True)
-        self._worker.start()
+        self._closed = Event()
+        self._worker = start_worker(partial(self._watch, self._stamps()), "watch", self._closed.set)
 
     def update(self) -> bool:
         """Pass a newly read bundle to the session. Returns True if there was one.

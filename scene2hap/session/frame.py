@@ -129,7 +129,7 @@ class SessionStats:
     preparations that the model refused, while the last field stayed in use; last_failure : the model's message;
     touches_off_surface : touches more than 5 cm off the box around their object, in the first 16 updates with touches
     and in one of 16 later ones; impacts : impacts, reported or found; impacts_felt : impacts that a hand felt;
-    impacts_left_out : impacts too soon after another one, or while too many others were played.
+    impacts_left_out : impacts too soon after another one, while too many others were played, or not prepared in time.
     """
 
     updates: int = 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,7 @@ from scene2hap.session.audibility import SILENT, Audibility, CutoffCost
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.explain import Explainer, Explanation
-from scene2hap.session.fields.keeper import FieldKeeper, LiveKeeper, keeper_of
+from scene2hap.session.fields.keeper import Keeper, keeper_of
 from scene2hap.session.frame import Counts, HapticFrame, SessionStats, Touch
 from scene2hap.session.hand_gains import AllGains, Felt, GainMethod, HandGains, Loudness, PrunedGains, TouchGains
 from scene2hap.session.mix.sources import LoopRow, Sources
@@ -38,8 +39,7 @@ class HandFrames:
         self._config, self._state, self._sources, self._peaks = config, state, sources, peaks
         self._counts, self._n_updates = Counts(), 0
         self._excitations: Sequence[Excitation] | None = None
-        self._method: GainMethod | None = None
-        self._method_field: LiveField | None = None
+        self._method: tuple[LiveField, GainMethod] | None = None
         self._n_unreachable: int | None = None
         self._levels, self._are_levels_known = np.empty(0), False
         self._profile: UserProfile | None = None
@@ -54,7 +54,7 @@ class HandFrames:
         self._pending: list[ContactChange] = []
         self._must_request, self._are_sources_known = False, True
         self._find_reach()
-        self.keeper: FieldKeeper | LiveKeeper = keeper_of(config, state, self._known_excitations())
+        self.keeper: Keeper = keeper_of(config, state, self._known_excitations())
         self._count_unreachable()
 
     def apply(self, change: ContactChange, *, sources_changed: bool = False) -> None:
@@ -105,8 +105,9 @@ class HandFrames:
         self.levels_changed()
 
     def use_hands(self, hands: tuple[str, ...]) -> None:
-        """Use other hands."""
+        """Use other hands. Those that remain keep their touches."""
         self._hands = hands
+        self._felt = {hand: self._felt[hand] for hand in hands if hand in self._felt}
         self.levels_changed()
 
     def frame(self, felt: Felt, moved: Collection[str], *, is_paused: bool) -> tuple[HapticFrame, HandGains | None]:
@@ -132,7 +133,7 @@ class HandFrames:
     def felt(self) -> Felt:
         """The touches of the last frame, of objects that are still there."""
         objects = self._state.objects
-        return {i: [one for one in touches if one.object_id in objects] for i, touches in self._felt.items()}
+        return {hand: [one for one in touches if one.object_id in objects] for hand, touches in self._felt.items()}
 
     @property
     def field(self) -> object:
@@ -154,10 +155,9 @@ class HandFrames:
     def explain(self, hand: str, *, is_paused: bool) -> Explanation:
         """Explain each source that a hand felt at the last frame (gain and path), or why the hand felt none."""
         self._catch_up()
-        felt = (touch for touches in self._felt.values() for touch in touches)
-        touches = [touch for touch in felt if touch.hand == hand and touch.object_id in self._state.objects]
+        touches = self.felt.get(hand, [])
         levels = self._levels_at(hand)
-        gains = self._touch_gains(self.keeper.unnoted(self._sources.ids, self._reach, len(touches)), Counts())
+        gains = self._touch_gains(self.keeper.for_points(self._sources.ids, self._reach, len(touches)), Counts())
         explainer = Explainer(self._state, self._sources, self._config.propagation, self.keeper.field, gains, levels)
         return explainer.explain(hand, touches, self._frame, is_current=self.keeper.is_current, is_paused=is_paused)
 
@@ -167,7 +167,7 @@ class HandFrames:
         if not touches or not self._sources.ids:
             return np.zeros((len(touches), len(self._sources.ids), self._config.bands.n_bands))
         levels = {hand: np.stack([*self._levels_at(hand).values()]) for hand in {touch.hand for touch in touches}}
-        field = self.keeper.unnoted(self._sources.ids, self._reach, len(touches))
+        field = self.keeper.for_points(self._sources.ids, self._reach, len(touches))
         cutoff = self._cutoff_of(field)
         limits = None if cutoff is None else cutoff.arrives(np.max([*levels.values()], axis=(0, 2)))
         given = self._touch_gains(field, Counts()).of([[touch] for touch in touches], limits)
@@ -177,17 +177,12 @@ class HandFrames:
 
     def stats(self, rows_not_mixed: int) -> SessionStats:
         """Counters so far."""
-        keeper = self.keeper
-        return SessionStats(
-            self._n_updates,
-            keeper.n_prepared,
-            self._counts.gains_capped,
-            self._state.bodiless,
-            keeper.age_s,
-            keeper.latency_s,
-            keeper.n_failed,
-            keeper.last_failure,
-            self._counts.skipped(rows_not_mixed),
+        return replace(
+            self.keeper.stats,
+            updates=self._n_updates,
+            gains_capped=self._counts.gains_capped,
+            bodiless=self._state.bodiless,
+            skipped=self._counts.skipped(rows_not_mixed),
         )
 
     def _concerns_sources(self, change: ContactChange) -> bool:
@@ -244,12 +239,11 @@ class HandFrames:
                 self._counts.idle_hands += len(self._hands)
             return HandGains(lambda: silence, silence)
         self._known_levels()
-        personal = self._personal
-        field = self.keeper.method(self._sources.ids, self._reach)
-        if self._method is None or self._method_field is not field:
-            self._method, self._method_field = self._new_method(field), field
-        gained = self._method.of_hands(len(self._hands), felt)
-        return gained if personal is None else personal.applied(gained)
+        field = self.keeper.for_touches(self._sources.ids, self._reach)
+        if self._method is None or self._method[0] is not field:
+            self._method = (field, self._new_method(field))
+        gained = self._method[1].of_hands(self._hands, felt)
+        return gained if self._personal is None else self._personal.applied(gained)
 
     def _new_method(self, field: LiveField) -> GainMethod:
         skip, counts = self._config.skip, self._counts
@@ -275,8 +269,7 @@ class HandFrames:
 
     def _cutoff_of(self, field: LiveField) -> CutoffCost | None:
         """The cut-offs of the sources in a field; None unless it reports path cost."""
-        # Live fields only: a cost query of a prepared field would take longer than computing its gains.
-        if not (isinstance(self.keeper, LiveKeeper) and isinstance(field, PathCostField)):
+        if not isinstance(field, PathCostField):
             return None
         audibility = self._known_audibility()
         if self._cutoff is None or self._cutoff[0] is not field:

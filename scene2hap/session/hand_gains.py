@@ -26,8 +26,8 @@ from scene2hap.session.config import MAX_GAIN_DB, SkipConfig
 from scene2hap.session.frame import Counts, Gains, Touch
 from scene2hap.session.reach import Reach
 
-Felt = dict[int, list[Touch]]
-"""Touches by the number of the hand, in rising order; hands without touches are left out."""
+Felt = dict[str, list[Touch]]
+"""Touches by hand, in the order of the hands; hands without touches are left out."""
 
 
 HandQuery = tuple[list[TouchedPoint], frozenset[int]]
@@ -188,8 +188,8 @@ class Loudness:
 class GainMethod(Protocol):
     """Computes the gains of all hands from their touches."""
 
-    def of_hands(self, n_hands: int, felt: Felt) -> HandGains:
-        """Gains of `n_hands` hands; `felt` has the touches of the hands that touch something."""
+    def of_hands(self, hands: tuple[str, ...], felt: Felt) -> HandGains:
+        """Gains of these hands; `felt` has the touches of those that touch something."""
         ...
 
 
@@ -199,18 +199,18 @@ class AllGains:
     def __init__(self, gains: TouchGains, loudness: Loudness, skip: SkipConfig, counts: Counts) -> None:
         self._gains, self._loudness, self._skip, self._counts = gains, loudness, skip, counts
 
-    def of_hands(self, n_hands: int, felt: Felt) -> HandGains:
+    def of_hands(self, hands: tuple[str, ...], felt: Felt) -> HandGains:
         """See `GainMethod`."""
         given = self._loudness.applied(self._gains.of(list(felt.values())))
         worth = self._loudness.audibility.worth_mixing
         if self._skip.idle_hands:
-            self._counts.idle_hands += n_hands - len(felt)
+            self._counts.idle_hands += len(hands) - len(felt)
             mixed, columns = worth(given)
-            mixed = _among(mixed, n_hands, felt)
+            mixed = _among(mixed, hands, felt)
         else:
-            mixed, columns = worth(_among(given, n_hands, felt))
+            mixed, columns = worth(_among(given, hands, felt))
         columns_or_all = columns if self._skip.silent_bands else None
-        return HandGains(lambda: _reported(given, n_hands, felt), mixed, columns_or_all)
+        return HandGains(lambda: _reported(given, hands, felt), mixed, columns_or_all)
 
 
 class PrunedGains:
@@ -233,7 +233,7 @@ class PrunedGains:
         self._on = frozenset(np.flatnonzero(levels).tolist())
         self._skips_silent_bands, self._graph = skips_silent_bands, graph
 
-    def of_hands(self, n_hands: int, felt: Felt) -> HandGains:
+    def of_hands(self, hands: tuple[str, ...], felt: Felt) -> HandGains:
         """See `GainMethod`."""
         gains, cutoff, on = self._gains, self._cutoff, self._on
         touches = list(felt.values())
@@ -241,7 +241,7 @@ class PrunedGains:
         costs = gains.path_costs(self._field, touches, queries, cutoff)
         columns, each, n_beyond = within(costs, cutoff, [among & on for _, among in queries])
         self._counts.below_threshold += n_beyond
-        self._counts.idle_hands += n_hands - len(felt)
+        self._counts.idle_hands += len(hands) - len(felt)
         mixed = self._loudness.applied(gains.at(self._field, each, columns), columns)
         if self._skips_silent_bands:
             self._loudness.audibility.silence(mixed, columns)
@@ -254,9 +254,9 @@ class PrunedGains:
             else:
                 # The contacts of that frame are gone, so only the costs that were computed then are valid.
                 everything = _without(costs, cutoff)
-            return _reported(self._loudness.applied(gains.at(self._field, everything)), n_hands, felt)
+            return _reported(self._loudness.applied(gains.at(self._field, everything)), hands, felt)
 
-        return HandGains(full, _among(mixed, n_hands, felt), columns)
+        return HandGains(full, _among(mixed, hands, felt), columns)
 
 
 def _without(costs: CostsByHand, limits: Sequence[float]) -> CostsByHand:
@@ -264,15 +264,15 @@ def _without(costs: CostsByHand, limits: Sequence[float]) -> CostsByHand:
     return [[x if x <= limit else math.inf for x, limit in zip(row, limits, strict=True)] for row in costs]
 
 
-def _reported(given: Gains, n_hands: int, felt: Felt) -> Gains:
+def _reported(given: Gains, hands: tuple[str, ...], felt: Felt) -> Gains:
     """Gains as `HapticFrame` reports them: 0 below -140 dB, whatever the model. A copy."""
-    return _among(np.where(given < SILENT, np.float32(0.0), given), n_hands, felt)
+    return _among(np.where(given < SILENT, np.float32(0.0), given), hands, felt)
 
 
-def _among(given: Gains, n_hands: int, felt: Felt) -> Gains:
+def _among(given: Gains, hands: tuple[str, ...], felt: Felt) -> Gains:
     """Gains of all hands, from those of the hands that touch something; 0 for the others."""
-    if len(felt) == n_hands:
+    if len(felt) == len(hands):
         return given
-    every = np.zeros((n_hands, *given.shape[1:]), dtype=np.float32)
-    every[list(felt)] = given
+    every = np.zeros((len(hands), *given.shape[1:]), dtype=np.float32)
+    every[[hands.index(hand) for hand in felt]] = given
     return every

@@ -589,6 +589,7 @@ class HapticSession:
     def stats(self) -> SessionStats:
         """Counters since the session was made, such as updates, impacts and skipped work."""
         stats = self._hand_frames.stats(self._playback.rows_not_mixed)
+        self._impacts.take_late()
         return replace(
             stats,
             touches_off_surface=self._mistakes.n_touches_off,

@@ -5,8 +5,12 @@ from __future__ import annotations
 import atexit
 import ctypes
 from collections.abc import Callable
+from concurrent.futures import Future
+from functools import partial
+from queue import SimpleQueue
 from threading import Thread
-from weakref import WeakKeyDictionary
+from typing import Any, TypeVar
+from weakref import WeakKeyDictionary, finalize
 
 from scene2hap.session.deadline import Deadline
 
@@ -14,6 +18,8 @@ LAST_S = 10.0
 """Longest time [s] for which Python waits at its end for all threads together; a thread ends within the step of a
 solver that it has begun."""
 
+_Result = TypeVar("_Result")
+_Tasks = SimpleQueue[Callable[[], None] | None]
 _ENDS: WeakKeyDictionary[Thread, Callable[[], object]] = WeakKeyDictionary()
 
 
@@ -23,6 +29,46 @@ def start_worker(work: Callable[[], None], name: str, end: Callable[[], object])
     _ENDS[worker] = end
     worker.start()
     return worker
+
+
+class WorkerPool:
+    """Up to `most` threads that carry out tasks, in the order in which they were submitted.
+
+    A `ThreadPoolExecutor` would keep Python from exiting until its tasks are done. Threads start as tasks need them,
+    and end once the pool is unused and its tasks are done.
+    """
+
+    def __init__(self, most: int, name: str) -> None:
+        self._most, self._name = most, name
+        self._tasks: _Tasks = SimpleQueue()
+        self._unfinished: list[Future[Any]] = []
+        self._n_threads = 0
+        finalize(self, self._tasks.put, None)
+
+    def submit(self, task: Callable[[], _Result]) -> Future[_Result]:
+        """Let a thread carry out a task, and return its future result or error."""
+        future: Future[_Result] = Future()
+        self._tasks.put(partial(_carry_out, task, future))
+        if self._n_threads < self._most:
+            self._unfinished = [*(one for one in self._unfinished if not one.done()), future]
+            if self._n_threads < len(self._unfinished):
+                self._n_threads += 1
+                start_worker(partial(_work, self._tasks), self._name, partial(self._tasks.put, None))
+        return future
+
+
+def _work(tasks: _Tasks) -> None:
+    while (task := tasks.get()) is not None:
+        task()
+        del task  # else what it refers to would live until the next one
+    tasks.put(None)  # for the other threads
+
+
+def _carry_out(task: Callable[[], _Result], future: Future[_Result]) -> None:
+    try:
+        future.set_result(task())
+    except Exception as problem:
+        future.set_exception(problem)
 
 
 @atexit.register

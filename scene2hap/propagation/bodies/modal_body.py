@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common.byte_bounded_lru import ByteBoundedLru
+from scene2hap.common.cached_while_used import cached_while_used
 from scene2hap.propagation.bands.octaves import OctaveSums
 from scene2hap.propagation.bodies.infinite_body import InfiniteBody
 from scene2hap.propagation.bodies.many_joints import among, has_many, rows_at_once
 from scene2hap.propagation.bodies.split_body import SplitBody
-from scene2hap.propagation.cached_while_used import cached_while_used
 from scene2hap.propagation.elastic_body import AnyFloat
 from scene2hap.propagation.modal.modes import FINE, MARGIN, QUICK_BLOCK, Fineness, largest_block
 from scene2hap.propagation.modal.plate_terms import N_NODES, ContractedShapes, ForcedPlate, PlateTerms

@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.cached_while_used import cached_while_used
+from scene2hap.common.cached_while_used import cached_while_used
 from scene2hap.propagation.modal.ritz import axis_basis, products
 from scene2hap.propagation.plate import Plate
 

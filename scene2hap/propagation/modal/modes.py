@@ -23,10 +23,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.cached_while_used import cached_while_used
 from scene2hap.common.calls import clear_attributes
 from scene2hap.common.counted import counted
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.cached_while_used import cached_while_used
 from scene2hap.propagation.domain import as_frequencies, warn_if_slow
 from scene2hap.propagation.modal.ritz import AxisBasis, axis_bases, products, stiffness
 from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate, require_plate

@@ -9,6 +9,7 @@ import time
 import weakref
 from collections.abc import Callable, Mapping, Sequence
 from threading import Thread
+from typing import Protocol
 
 from scene2hap.errors import Scene2HapError
 from scene2hap.haptics import Bands
@@ -28,6 +29,7 @@ from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.fields.prepared import FieldInUse, LastField
 from scene2hap.session.fields.worker import FieldWorker, Prepared, Sign, Situation
+from scene2hap.session.frame import SessionStats
 from scene2hap.session.reach import Reach
 from scene2hap.session.scene_state import SceneState
 
@@ -40,6 +42,49 @@ sources, of which few points feel any, a field pays later or never; it takes 1 t
 
 class FieldWarning(RuntimeWarning):
     """The model could not prepare a field of the present scene."""
+
+
+class Keeper(Protocol):
+    """Provides the field of the present scene."""
+
+    @property
+    def field(self) -> PropagationField | LiveField:
+        """The field in use, as the model made it."""
+        ...
+
+    @property
+    def is_current(self) -> bool:
+        """Whether the field in use is that of the newest scene state."""
+        ...
+
+    @property
+    def stats(self) -> SessionStats:
+        """The counters of fields; all others are 0."""
+        ...
+
+    def request(self, excitations: Sequence[Excitation]) -> None:
+        """Request a field for the present scene."""
+        ...
+
+    def order(self) -> None:
+        """Pass the newest request to the worker. Call it at the end of an update, so as not to slow down the update."""
+        ...
+
+    def take(self) -> bool:
+        """Use the newest prepared field. Returns false if there is no newer one."""
+        ...
+
+    def wait(self, end: Deadline) -> bool:
+        """Wait until no field is being prepared, and use the newest one. Returns false after the deadline."""
+        ...
+
+    def for_touches(self, source_ids: tuple[str, ...], reach: Reach) -> LiveField:
+        """The field in use at touches, for these sources and connected objects. It is another one after a change."""
+        ...
+
+    def for_points(self, source_ids: tuple[str, ...], reach: Reach, n_points: int) -> LiveField:
+        """See `for_touches`; for points that no hand touches, so that no worker prepares their objects."""
+        ...
 
 
 class FieldKeeper:
@@ -68,12 +113,10 @@ class FieldKeeper:
         self._is_background, self._skips_unreachable = is_background, skips_unreachable
         self._thread: Thread | None = None
         self._must_expect = self._is_expectant = False
-        self._method: tuple[FieldInUse, tuple[str, ...], Reach] | None = None
+        self._for_touches: tuple[FieldInUse, tuple[str, ...], Reach] | None = None
         self._n_answered = self._n_ordered = self._n_put = 0
-        self.n_prepared: int = 0
-        self.n_failed: int = 0
-        self.last_failure: str = ""
-        self.latency_s: float = 0.0
+        self._n_prepared = self._n_failed = 0
+        self._last_failure, self._latency_s = "", 0.0
         self._is_refused = False
         before = self._situation(0, excitations)
         self._whole = Prepared(NoPropagation().prepare(ContactNetwork({}), excitations, bands), before)
@@ -93,10 +136,16 @@ class FieldKeeper:
         return self.in_use.situation is self._requested
 
     @property
-    def age_s(self) -> float:
-        """Time for which the field in use has been out of date [s]."""
+    def stats(self) -> SessionStats:
+        """See `Keeper`."""
         outdated = self.in_use.situation.outdated_at_s
-        return 0.0 if outdated is None else time.monotonic() - outdated
+        return SessionStats(
+            fields_prepared=self._n_prepared,
+            field_age_s=0.0 if outdated is None else time.monotonic() - outdated,
+            field_latency_s=self._latency_s,
+            fields_failed=self._n_failed,
+            last_failure=self._last_failure,
+        )
 
     def request(self, excitations: Sequence[Excitation]) -> None:
         """Request a field for the present scene. It is prepared at once, or by the worker from the next `order` on."""
@@ -106,7 +155,7 @@ class FieldKeeper:
             self._use(self._worker.prepare(self._requested))
 
     def order(self) -> None:
-        """Pass the newest request to the worker. Call it at the end of an update, so as not to slow down the update."""
+        """See `Keeper`."""
         if not self._is_background:
             return
         if self._n_ordered != self._requested.number:
@@ -117,17 +166,17 @@ class FieldKeeper:
             self._put(Sign.TOUCHED)
         self._must_expect = False
 
-    def method(self, source_ids: tuple[str, ...], reach: Reach) -> FieldInUse:
-        """The field in use, for these sources and connected objects. It switches to each newer field by itself."""
-        if self._method is not None and self._method[1:] == (source_ids, reach):
-            return self._method[0]
+    def for_touches(self, source_ids: tuple[str, ...], reach: Reach) -> FieldInUse:
+        """See `Keeper`. It switches to each newer field by itself."""
+        if self._for_touches is not None and self._for_touches[1:] == (source_ids, reach):
+            return self._for_touches[0]
         keeper = self._weak
         field = self._in_use(source_ids, reach, lambda touched: keeper._note_touched(touched))
-        self._method = (field, source_ids, reach)
+        self._for_touches = (field, source_ids, reach)
         return field
 
-    def unnoted(self, source_ids: tuple[str, ...], reach: Reach, n_points: int) -> FieldInUse:
-        """See `method`; for points that no hand touches, so that the worker does not prepare their objects."""
+    def for_points(self, source_ids: tuple[str, ...], reach: Reach, n_points: int) -> FieldInUse:
+        """See `Keeper`."""
         return self._in_use(source_ids, reach, lambda touched: None)
 
     def _in_use(
@@ -144,7 +193,7 @@ class FieldKeeper:
         return field
 
     def take(self) -> bool:
-        """Use the newest prepared field. Returns false if there is no newer one."""
+        """See `Keeper`."""
         try:
             answer = self._worker.answers.pop()
         except IndexError:
@@ -184,12 +233,12 @@ class FieldKeeper:
         self.in_use, self._is_expectant = found, isinstance(found.field, ExpectantField)
         if found.covers is None:
             self._whole, self._n_answered = found, situation.number
-        if self._method is not None:
-            self._method[0].use(found, self._whole)
-        self.n_prepared += 1
+        if self._for_touches is not None:
+            self._for_touches[0].use(found, self._whole)
+        self._n_prepared += 1
         self._is_refused = False
         if situation is not before:
-            self.latency_s = time.monotonic() - situation.requested_at_s
+            self._latency_s = time.monotonic() - situation.requested_at_s
 
     def _note_touched(self, touched: Sequence[TouchedPoint]) -> None:
         self._worker.touched = touched
@@ -198,10 +247,10 @@ class FieldKeeper:
             self._must_expect = not expected.issuperset([object_id for object_id, _ in touched])
 
     def _note(self, problem: Exception) -> None:
-        self.n_failed += 1
-        self.last_failure = str(problem) if isinstance(problem, Scene2HapError) else repr(problem)
-        instead = "the last one plays on" if self.n_prepared else "each source is felt on itself alone"
-        warning = f"a field could not be prepared, so that {instead}: {self.last_failure}"
+        self._n_failed += 1
+        self._last_failure = str(problem) if isinstance(problem, Scene2HapError) else repr(problem)
+        instead = "the last one plays on" if self._n_prepared else "each source is felt on itself alone"
+        warning = f"a field could not be prepared, so that {instead}: {self._last_failure}"
         # Once until a field is prepared again, since a game may change its scene in every frame.
         if not self._is_refused:
             warn_of(warning, FieldWarning)
@@ -222,49 +271,45 @@ class LiveKeeper:
     """
 
     is_current = True
-    age_s: float = 0.0
-    latency_s: float = 0.0
-    n_failed = 0
-    last_failure = ""
 
     def __init__(self, model: LiveModel, bands: Bands, state: SceneState, excitations: Sequence[Excitation]) -> None:
         self._model, self._bands, self._state = model, bands, state
-        self.n_prepared: int = 0
+        self._n_requests = 0
         self._made_for: tuple[Mapping[str, Body], Sequence[Excitation]] | None = None
         self._mapped: tuple[int, PropagationField] | None = None
         self.request(excitations)
 
     @property
-    def field(self) -> LiveField:
-        """The field to evaluate."""
-        return self.in_use
+    def stats(self) -> SessionStats:
+        """See `Keeper`. A live field follows each request at once."""
+        return SessionStats(fields_prepared=self._n_requests)
 
     def request(self, excitations: Sequence[Excitation]) -> None:
         """Make a field of the present objects and sources, unless the field in use has the same ones."""
-        self.n_prepared += 1
+        self._n_requests += 1
         bodies = self._state.bodies
         if self._made_for is None or self._made_for[0] is not bodies or self._made_for[1] is not excitations:
             field = self._model.live(self._state.graph, bodies, excitations, self._bands)
             if self._made_for is not None and isinstance(field, SucceedingField):
-                field.succeed(self.in_use)
+                field.succeed(self.field)
             self._made_for = (bodies, excitations)
-            self.in_use: LiveField = field
+            self.field: LiveField = field
             self._mapped = None
 
     def order(self) -> None:
         """Do nothing: a live field needs no preparation."""
 
-    def method(self, source_ids: tuple[str, ...], reach: Reach) -> LiveField:
-        """The field of these sources."""
-        return self.in_use
+    def for_touches(self, source_ids: tuple[str, ...], reach: Reach) -> LiveField:
+        """Return the field, which follows sources and contacts by itself."""
+        return self.field
 
-    def unnoted(self, source_ids: tuple[str, ...], reach: Reach, n_points: int) -> LiveField:
-        """See `method`; for points that no hand touches.
+    def for_points(self, source_ids: tuple[str, ...], reach: Reach, n_points: int) -> LiveField:
+        """See `Keeper`.
 
         For many points the model prepares a field, which stays in use until contacts, sources or objects change.
         """
         if n_points < _MANY or not isinstance(self._model, PropagationModel):
-            return self.in_use
+            return self.field
         version = self._state.graph.version
         if self._mapped is None or self._mapped[0] != version:
             assert self._made_for is not None
@@ -282,7 +327,7 @@ class LiveKeeper:
         return True
 
 
-def keeper_of(config: SessionConfig, state: SceneState, excitations: Sequence[Excitation]) -> FieldKeeper | LiveKeeper:
+def keeper_of(config: SessionConfig, state: SceneState, excitations: Sequence[Excitation]) -> Keeper:
     """Return the keeper for the configured model: `LiveKeeper` if the model has a live field."""
     model, bands = config.propagation, config.bands
     if isinstance(model, LiveModel):

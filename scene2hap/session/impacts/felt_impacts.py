@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable, Collection, Mapping
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from concurrent.futures import Future, wait
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -21,7 +21,6 @@ import numpy as np
 from scene2hap.audio.actuators import inverse_db, is_flat
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB
 from scene2hap.common.calls import clear_attributes
-from scene2hap.errors import Scene2HapError
 from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.live import PointField, TouchedPoint
 from scene2hap.render.bursts import Samples, peak_of, wave_of
@@ -34,6 +33,7 @@ from scene2hap.session.impacts.landings import Landings
 from scene2hap.session.mix.playback import Playback
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.user_profile import UserProfile
+from scene2hap.session.worker_threads import WorkerPool
 
 if TYPE_CHECKING:
     from scene2hap.session.impacts.struck_ahead import StruckAhead
@@ -66,7 +66,8 @@ class Impact:
     Parameters: object_id : the struck object; point_m : the struck point [m], world; with_object : the striking object,
     None if unknown; speed_m_s : at which they met, None if an impulse was given; frequency_hz : of the strongest
     component; at_sample : its time on the clock of `render`; felt : the largest sample that the impact adds at each
-    hand [-], without hands that feel nothing. With a model that has no live field, a worker fills in `felt` later.
+    hand [-], without hands that feel nothing. If a worker prepares the gains, a later `update` or `wait_prepared` fills
+    in `felt`.
     """
 
     object_id: str
@@ -97,6 +98,8 @@ class Strike:
 class Impacts:
     """Finds landings, and turns impacts into bursts of a session's mix.
 
+    Threads: call all methods on the game's thread. A worker that has prepared the gains of an impact starts its burst,
+    which need not wait for an update. `take_late` records these impacts.
     Parameters: field : returns the field in use; user_factor : returns the level of all vibration [-].
     """
 
@@ -116,9 +119,9 @@ class Impacts:
         self._looked_at: object = None
         self._point_field: PointField | None = None
         # Several workers, since preparing a scene in advance, or for an impact, may take longer than another impact may
-        # wait. Their threads start with the first task.
-        self._workers = ThreadPoolExecutor(3, thread_name_prefix="scene2hap impacts")
-        self._waiting: list[Future[None]] = []
+        # wait.
+        self._workers = WorkerPool(3, "impacts")
+        self._waiting: list[tuple[Impact, Future[dict[str, float] | None]]] = []
         self._ahead = self._prepared_ahead() if config.prepares_impacts else None
         self._recent: deque[Impact] = deque(maxlen=KEPT)
         self.n_reported: int = 0
@@ -129,6 +132,7 @@ class Impacts:
         self, strike: Strike, felt: Felt, hands: tuple[str, ...], profile: UserProfile | None, at_frame: int
     ) -> Impact:
         """Play an impact at the hands that touch something."""
+        self.take_late()
         self.n_reported += 1
         impact, burst = self._impact(strike, at_frame)
         if self._is_admitted(strike, felt, at_frame):
@@ -149,6 +153,7 @@ class Impacts:
         at_frame: int,
     ) -> None:
         """Play the landings of an update, and prepare for impacts around the touched objects. Call it in each one."""
+        self.take_late()
         if self._landings is not None and (moved or self._landings.follow_any):
             for one in self._landings.look(moved or {}, at_frame / self._config.sample_rate_hz):
                 self.n_reported += 1
@@ -180,35 +185,45 @@ class Impacts:
         self, impact: Impact, burst: Burst, felt: Felt, hands: tuple[str, ...], profile: UserProfile | None
     ) -> None:
         at_frame, f = impact.at_sample, burst.frequencies_hz
-        # A hand may be removed before a worker has the gains.
-        outputs = self._playback.outputs
-        touched: dict[int, list[TouchedPoint]] = {i: [(x.object_id, x.point_m) for x in felt[i]] for i in felt}
+        # A hand may be removed before a worker has the gains, and has another output if it is added again.
+        outputs = dict(zip(hands, self._playback.outputs, strict=True))
+        touched: dict[str, list[TouchedPoint]] = {
+            hand: [(x.object_id, x.point_m) for x in touches] for hand, touches in felt.items()
+        }
 
-        def sound(gains: Floats, begin: int, among: Collection[int]) -> None:
+        def started(gains: Floats, begin: int, among: Collection[str]) -> dict[str, float]:
+            """Start the burst, in any thread; return the largest sample at each hand that feels it."""
             # Most impacts of a busy scene are too far from every hand.
-            if len(gains) and gains.max() * PEAK >= LEAST_GAIN:
-                waves, its = self._waves(burst), {outputs[i]: hands[i] for i in among}
-                levels = self._levels(burst, waves, [*its.values()], profile)
-                self._sound(impact, burst, waves, levels * self._capped(gains), its, begin)
+            if not len(gains) or gains.max() * PEAK < LEAST_GAIN:
+                return {}
+            waves = self._waves(burst)
+            weights = self._levels(burst, waves, [*among], profile) * self._capped(gains)
+            felt = {hand: row for hand, row in zip(among, weights, strict=True) if row.max() >= LEAST_GAIN}
+            by_output = {outputs[hand]: row.tolist() for hand, row in felt.items()}
+            if not felt or not self._playback.start_burst(waves, by_output, begin):
+                return {}
+            rate_hz = self._config.sample_rate_hz
+            return {hand: peak_of(waves, row, burst.decays_s, rate_hz) for hand, row in felt.items()}
 
         live = self._live()
         if live is not None:
             objects, hands_on = (impact.object_id, impact.with_object), [*touched.values()]
-            sound(struck_live(live, *objects, impact.point_m, hands_on, f), at_frame, touched)
+            gains = struck_live(live, *objects, impact.point_m, hands_on, f)
+            self._record(impact, started(gains, at_frame, touched))
             return
         left = touched
         if self._ahead is not None:
             answer = self._ahead.answer(impact.object_id, impact.point_m, touched, f)
             if answer is not None:
-                sound(answer.gains, at_frame, answer.among)
-                left = {i: hand for i, hand in touched.items() if i not in answer.among}
+                self._record(impact, started(answer.gains, at_frame, answer.among))
+                left = {hand: its for hand, its in touched.items() if hand not in answer.among}
         if left:
             model, hands_left = self._config.propagation, [*left.values()]
             prepared = struck_later(model, self._state, impact.object_id, impact.point_m, hands_left, f)
             if self._config.prepare == "blocking":
-                sound(prepared(), at_frame, left)
+                self._record(impact, started(prepared(), at_frame, left))
             else:
-                self._order(prepared, lambda gains, begin: sound(gains, begin, left), at_frame)
+                self._order(impact, prepared, lambda gains, begin: started(gains, begin, left))
 
     def _live(self) -> PointField | None:
         """The field in use if it is a `PointField`. Cached, since this check takes as long as a faint impact."""
@@ -224,13 +239,25 @@ class Impacts:
 
     def recent(self) -> tuple[Impact, ...]:
         """The impacts of the last second that any hand felt, the latest first."""
+        self.take_late()
         since = self._playback.position - self._config.sample_rate_hz
-        # A copy, since a worker may add an impact meanwhile.
-        return tuple(one for one in reversed(self._recent.copy()) if one.at_sample >= since)
+        return tuple(one for one in reversed(self._recent) if one.at_sample >= since)
 
     def wait(self, end: Deadline) -> bool:
         """Wait for all results of the workers; false after the deadline."""
-        return not wait(self._waiting, end.left_s).not_done and (self._ahead is None or self._ahead.wait(end))
+        are_done = not wait([job for _, job in self._waiting], end.left_s).not_done
+        self.take_late()
+        return are_done and (self._ahead is None or self._ahead.wait(end))
+
+    def take_late(self) -> None:
+        """Record the impacts that workers have finished."""
+        for impact, job in [one for one in self._waiting if one[1].done()]:
+            self._waiting.remove((impact, job))
+            felt = job.result()
+            if felt is None:
+                self.n_left_out += 1
+            else:
+                self._record(impact, felt)
 
     def _levels(self, burst: Burst, waves: list[Samples], hands: list[str], profile: UserProfile | None) -> Floats:
         """Amplitude (n_hands, n) [-] of each sine at each of these hands, as if it touched the struck point."""
@@ -258,7 +285,6 @@ class Impacts:
             return False
         pair = (strike.object_id, strike.with_object)
         is_new = at_frame - self._last.get(pair, -math.inf) >= LEAST_INTERVAL_S * self._config.sample_rate_hz
-        self._waiting = [one for one in self._waiting if not one.done()]
         if not is_new or self._playback.n_bursts >= MOST_PLAYING or len(self._waiting) >= MOST_WAITING:
             self.n_left_out += 1
             return False
@@ -273,44 +299,28 @@ class Impacts:
         capped = np.fmax(gains, 0.0)
         return capped if limit_db is None else np.minimum(capped, 10 ** (limit_db / 20))
 
-    def _sound(
-        self,
-        impact: Impact,
-        burst: Burst,
-        waves: list[Samples],
-        weights: Floats,
-        outputs: Mapping[int, str],
-        at_frame: int,
+    def _record(self, impact: Impact, felt: Mapping[str, float]) -> None:
+        # An impact may be felt by some hands at once, and by others later.
+        if felt and not impact.felt:
+            self._recent.append(impact)
+            self.n_felt += 1
+        impact.felt.update(felt)
+
+    def _order(
+        self, impact: Impact, prepared: Callable[[], Floats], started: Callable[[Floats, int], dict[str, float]]
     ) -> None:
-        felt: dict[int, list[float]] = {}
-        was_felt = bool(impact.felt)
-        for (output, hand), row in zip(outputs.items(), weights, strict=True):
-            if row.max() >= LEAST_GAIN:
-                felt[output] = row.tolist()
-                impact.felt[hand] = peak_of(waves, row, burst.decays_s, self._config.sample_rate_hz)
-        if felt:
-            self._playback.start_burst(waves, felt, at_frame)
-            if not was_felt:
-                self._recent.append(impact)
-                self.n_felt += 1
-
-    def _order(self, prepared: Callable[[], Floats], sound: Callable[[Floats, int], None], at_frame: int) -> None:
         """Let a worker prepare the gains and start the burst, unless the burst is then more than `LATEST_S` late."""
-        latest = at_frame + round(LATEST_S * self._config.sample_rate_hz)
+        playback, latest = self._playback, impact.at_sample + round(LATEST_S * self._config.sample_rate_hz)
 
-        def work() -> None:
+        def work() -> dict[str, float] | None:
             try:
                 gains = prepared()
-            except Scene2HapError:  # the field in use fails in the same way, and warns
-                self.n_left_out += 1
-            else:
-                begin = self._playback.position
-                if begin <= latest:
-                    sound(gains, begin)
-                else:
-                    self.n_left_out += 1
+            except Exception:  # the field in use fails in the same way, and warns
+                return None
+            begin = playback.position
+            return started(gains, begin) if begin <= latest else None
 
-        self._waiting.append(self._workers.submit(work))
+        self._waiting.append((impact, self._workers.submit(work)))
 
     def _prepared_ahead(self) -> StruckAhead:
         from scene2hap.session.impacts.struck_ahead import StruckAhead  # by need: the physical models

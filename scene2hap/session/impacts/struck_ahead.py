@@ -14,7 +14,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.errors import Scene2HapError
 from scene2hap.propagation.coupled.impact_scene import StruckScene
 from scene2hap.propagation.coupled.substructuring import prepare_struck
 from scene2hap.propagation.live import TouchedPoint
@@ -32,7 +31,7 @@ MOST = 4
 class Answer(NamedTuple):
     """Gains (n_hands, n_frequencies) [-] of the hands `among`."""
 
-    among: Collection[int]
+    among: Collection[str]
     gains: Floats
 
 
@@ -44,8 +43,9 @@ class Ordered(NamedTuple):
 
 
 class StruckAhead:
-    """Prepares the scene around touched objects. Call `expect` and `answer` on the game's thread.
+    """Prepares the scene around touched objects. Call all methods on the game's thread.
 
+    A worker publishes the newest scene in a single slot, so that an impact is felt with it before the next update.
     Parameters: submit : passes a function to a worker.
     """
 
@@ -86,7 +86,7 @@ class StruckAhead:
         self,
         object_id: str,
         point_m: Point,
-        hands: Mapping[int, Sequence[TouchedPoint]],
+        hands: Mapping[str, Sequence[TouchedPoint]],
         frequencies_hz: Floats,
     ) -> Answer | None:
         """Return the gains of an impact at each hand that is prepared for it: the largest over the hand's touches.
@@ -101,11 +101,11 @@ class StruckAhead:
             same = all(bodies.get(x) is self._state.bodies.get(x) for x in (touched_id, object_id))
             return same and scene.knows(touched_id, object_id)
 
-        ready = {i: hand for i, hand in hands.items() if hand and all(is_ready(x) for x, _ in hand)}
+        ready = {hand: touched for hand, touched in hands.items() if touched and all(is_ready(x) for x, _ in touched)}
         if not ready:
             return None
         struck_m = self._on_plate(object_id, point_m)
-        felt = [(x, self._on_plate(x, at)) for hand in ready.values() for x, at in hand]
+        felt = [(x, self._on_plate(x, at)) for touched in ready.values() for x, at in touched]
         starts = np.cumsum([0, *map(len, ready.values())])[:-1]
 
         gains = np.maximum.reduceat(scene.gains(object_id, struck_m, felt, frequencies_hz), starts, axis=0)
@@ -134,7 +134,7 @@ class StruckAhead:
         def work() -> None:
             try:
                 scene = prepare_struck(self._model, put_together(touched).network, touched)
-            except Scene2HapError:  # the field in use fails in the same way, and warns
+            except Exception:  # the field in use fails in the same way, and warns
                 self._prepared = None
             else:
                 self._prepared = bodies, scene

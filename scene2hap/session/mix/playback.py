@@ -3,8 +3,8 @@
 Almost always one mixer plays all loops, which are stored in the slots of its bank. A new hand, or more loops than there
 are slots, get another mixer, in phase with the first, and the mixes are added.
 
-Threads: call `render` on the audio thread, everything else on the game's. The audio thread reads an immutable plan,
-which the game's thread replaces. Neither thread waits for the other.
+Threads: call `render` on the audio thread, `start_burst` on the game's or a worker, everything else on the game's. The
+audio thread reads an immutable plan, which the game's thread replaces. Neither thread waits for the other.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import math
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, wait
 from dataclasses import dataclass
+from threading import Lock
 
 import numpy as np
 from numpy.typing import NDArray
@@ -150,10 +151,12 @@ class Playback:
         self._mixers = [MixerInstance(config, self._banks[0], tuple(self._hands), 0)]
         self._plan = self._new_plan()
         self._bursts = Bursts()
+        self._pausing = Lock()  # else a worker may start a burst after the fade, which would play on after the pause
         self._limits: HandLimits | None = None
         # Twice the ramp, since gain changes in quick succession may have to wait.
         fade_s = 2 * max(config.control_period_s, MIN_RAMP_S) + self._mixers[0].mixer.delay_s + 0.01
         self._fade_frames = round(fade_s * config.sample_rate_hz)
+        # The first loops play at once: `change_rows` finds what is prepared here.
         for row in rows:
             self._prepared(row)
         self.change_rows(rows, 0)
@@ -228,10 +231,13 @@ class Playback:
 
     def start_burst(
         self, waves: Sequence[NDArray[np.float32]], weights: Mapping[int, Sequence[float]], at_frame: int
-    ) -> None:
-        """Add weighted waves (n,) to some of the `outputs`, once, from a frame on; do nothing in a pause."""
-        if self._paused_from is None:
+    ) -> bool:
+        """Add weighted waves (n,) to some of the `outputs`, once, from a frame on. In a pause, return False instead."""
+        with self._pausing:
+            if self._paused_from is not None:
+                return False
             self._bursts.start(PlannedBurst(at_frame, waves, weights))
+            return True
 
     def _routes_of(self, active: Sequence[LoopRow], columns: Sequence[int] | None) -> list[_Route]:
         """The routes of some active rows. Cached, since moving a source repeats a few combinations of rows."""
@@ -271,9 +277,8 @@ class Playback:
         new = [row for row in rows if row not in self._places and row not in self._coming]
         bands, rate_hz = self._config.bands, self._tactile_rate_hz
         for row in new:
-            if self._config.prepare == "blocking":
-                self._prepared(row)
-            loop = find(row.loop.tactile, bands, rate_hz)
+            is_blocking = self._config.prepare == "blocking"
+            loop = self._prepared(row) if is_blocking else find(row.loop.tactile, bands, rate_hz)
             if loop is None:
                 self._coming[row] = order(row.loop.tactile, bands, rate_hz)
             else:
@@ -339,8 +344,9 @@ class Playback:
             at_frame = self.now
             for mixer in self._mixers:
                 mixer.silence(at_frame)
-            self._bursts.fade(Fade(at_frame, self._fade_frames))
-            self._paused_from = at_frame
+            with self._pausing:
+                self._bursts.fade(Fade(at_frame, self._fade_frames))
+                self._paused_from = at_frame
 
     def resume(self) -> None:
         """Continue the clock; gains must be set again."""

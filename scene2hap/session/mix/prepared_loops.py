@@ -2,18 +2,17 @@
 
 Preparing a loop takes some 100 ms. So a process prepares each content once, for all objects, sessions and copies of
 the samples. A worker prepares loops that are added while a session plays. A prepared loop is cached as long as its clip
-lives. The newest `KEPT_BYTES` are cached longer, for objects that are removed and added again.
+lives. The newest are cached longer, for objects that are removed and added again.
 """
 
 from __future__ import annotations
 
 import hashlib
 import math
-from collections import OrderedDict
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 from dataclasses import dataclass
-from functools import lru_cache
-from weakref import WeakValueDictionary, finalize
+from functools import lru_cache, partial
+from weakref import finalize
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,11 +20,13 @@ from numpy.typing import NDArray
 from scene2hap.audio.bands import split_bands
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.threshold import threshold_db
+from scene2hap.common.cached_while_used import CacheWhileUsed
 from scene2hap.common.forks import lock_of_process, renew_in_child
 from scene2hap.haptics import Bands
 from scene2hap.render.loop_bank import LoopBank
+from scene2hap.session.worker_threads import WorkerPool
 
-KEPT_BYTES = 32 * 2**20
+MOST_BYTES = 32 * 2**20
 """Size of the cache of the newest loops, whose clips may be gone."""
 PEAKS_RATE_HZ = 8000
 """Rate at which peaks are searched: eight samples per wave at 1 kHz miss a peak by a factor of cos(pi/8) at most."""
@@ -38,14 +39,17 @@ class PreparedLoop:
     bank: LoopBank
     peaks: NDArray[np.float64]
 
+    @property
+    def nbytes(self) -> int:
+        """Memory of the bank [byte]."""
+        return self.bank.nbytes
+
 
 _Kind = tuple[Bands, int]
 _LOCK = lock_of_process()
-_BUILDING = lock_of_process()
 # By id(clip): comparing samples would take too long for `find`, and an equal clip may die before this one.
 _OF_CLIP: dict[int, dict[_Kind, PreparedLoop]] = {}
-_BY_CONTENT: WeakValueDictionary[tuple[bytes, _Kind], PreparedLoop] = WeakValueDictionary()
-_NEWEST: OrderedDict[tuple[bytes, _Kind], PreparedLoop] = OrderedDict()
+_BY_CONTENT: CacheWhileUsed[PreparedLoop] = CacheWhileUsed(MOST_BYTES)
 
 
 def find(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop | None:
@@ -61,26 +65,22 @@ def prepare(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop
         return found
     kind = (bands, tactile_rate_hz)
     content = hashlib.blake2b(clip.samples.tobytes(), key=str(clip.sample_rate_hz).encode()).digest()
-    with _BUILDING:
-        found = _BY_CONTENT.get((content, kind)) or _made(clip, bands, tactile_rate_hz)
+    found = _BY_CONTENT.get((content, kind), partial(_made, clip, bands, tactile_rate_hz))
     with _LOCK:
         if id(clip) not in _OF_CLIP:
             finalize(clip, _OF_CLIP.pop, id(clip), None).atexit = False
-        _OF_CLIP.setdefault(id(clip), {})[kind] = _BY_CONTENT[content, kind] = _NEWEST[content, kind] = found
-        _NEWEST.move_to_end((content, kind))
-        while len(_NEWEST) > 1 and sum(one.bank.nbytes for one in _NEWEST.values()) > KEPT_BYTES:
-            _NEWEST.popitem(last=False)
+        _OF_CLIP.setdefault(id(clip), {})[kind] = found
     return found
 
 
 def order(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> Future[PreparedLoop]:
     """Let a worker prepare a clip's loop."""
-    return _worker().submit(prepare, clip, bands, tactile_rate_hz)
+    return _worker().submit(partial(prepare, clip, bands, tactile_rate_hz))
 
 
 @lru_cache(maxsize=1)
-def _worker() -> ThreadPoolExecutor:
-    return ThreadPoolExecutor(1, thread_name_prefix="scene2hap loops")
+def _worker() -> WorkerPool:
+    return WorkerPool(1, "loops")
 
 
 renew_in_child(_worker.cache_clear)

@@ -7,10 +7,9 @@ import pytest
 
 from garbage import no_garbage_collection
 from scene2hap import materials
-from scene2hap.propagation import cached_while_used as module
+from scene2hap.common.cached_while_used import cached_while_used
 from scene2hap.propagation.bodies.lattice_body import lattice_body
 from scene2hap.propagation.bodies.modal_body import modal_body
-from scene2hap.propagation.cached_while_used import cached_while_used
 from scene2hap.propagation.modal.in_plane import in_plane_modes
 from scene2hap.propagation.plate import Plate
 
@@ -25,8 +24,7 @@ class Large:
     nbytes: int = 1000
 
 
-def test_used_results_are_computed_once_and_the_newest_others_are_kept(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "KEPT_BYTES", 3000)
+def test_used_results_are_computed_once_and_the_newest_others_are_kept() -> None:
     asked: list[int] = []
 
     @cached_while_used
@@ -34,6 +32,7 @@ def test_used_results_are_computed_once_and_the_newest_others_are_kept(monkeypat
         asked.append(number)
         return Large(number)
 
+    large.cache.most_bytes = 3000
     used = [large(number) for number in range(10)]
     assert [large(number) for number in range(10)] == used
     assert asked == [*range(10)]
@@ -54,7 +53,8 @@ def test_used_results_are_computed_once_and_the_newest_others_are_kept(monkeypat
 @pytest.mark.parametrize("kind", ["modal", "lattice", "in plane"])
 def test_a_scene_of_any_number_of_plates_solves_each_once(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """A room has more plates than any fixed number; each change of a contact asks for all of them again."""
-    monkeypatch.setattr(module, "KEPT_BYTES", 1)
+    for function in (modal_body, lattice_body, in_plane_modes):
+        monkeypatch.setattr(function.cache, "most_bytes", 1)
     body_of = {
         "modal": lambda plate: modal_body(plate, 200.0, 0.01),
         "lattice": lambda plate: lattice_body(plate, 8, 200.0, 0.01),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from threading import Event
+from threading import Event, Thread
 from typing import Any
 
 import numpy as np
@@ -170,12 +170,12 @@ def test_prepared_impact_equals_the_field_of_the_impact_alone() -> None:
         made.update(touches=touches())
         assert made.wait_prepared(60.0)
         assert made._impacts._ahead is not None
-        burst, hands = burst_at(made, STRUCK), [[("table", NEAR)], [("table", FAR), ("table", STRUCK)]]
+        burst, hands = burst_at(made, STRUCK), {"left": [("table", NEAR)], "right": [("table", FAR), ("table", STRUCK)]}
         f = burst.frequencies_hz
-        expected = struck_later(model, made._state, "table", STRUCK, hands, f)()
-        answer = made._impacts._ahead.answer("table", STRUCK, dict(enumerate(hands)), f)
+        expected = struck_later(model, made._state, "table", STRUCK, [*hands.values()], f)()
+        answer = made._impacts._ahead.answer("table", STRUCK, hands, f)
         assert answer is not None
-        assert list(answer.among) == [0, 1]
+        assert list(answer.among) == ["left", "right"]
         found = answer.gains
         assert np.abs(20 * np.log10(found / expected)).max() < 0.5
         assert (found[1] > 0.999).all()  # this hand touches the struck point
@@ -221,7 +221,7 @@ def test_a_hand_on_another_object_feels_an_impact_with_the_next_block_as_the_mod
     f, weights = burst.frequencies_hz, burst.accelerations_m_s2**2
     own = struck_later(model, state, struck, places[struck], [[(touched, hand)]], f)()
     assert made._impacts._ahead is not None
-    answer = made._impacts._ahead.answer(struck, places[struck], {0: [(touched, hand)]}, f)
+    answer = made._impacts._ahead.answer(struck, places[struck], {"left": [(touched, hand)]}, f)
     assert answer is not None
     expected, found = (float((weights * gains[0] ** 2).sum()) for gains in (own, answer.gains))
     assert abs(10 * math.log10(found / expected)) < 0.5
@@ -247,7 +247,7 @@ def test_a_hand_on_two_objects_feels_the_larger_answer() -> None:
     ahead, f = made._impacts._ahead, np.array([60.0, 150.0])
     assert ahead is not None
     answers = [
-        ahead.answer("table", STRUCK, {0: hand}, f)
+        ahead.answer("table", STRUCK, {"left": hand}, f)
         for hand in ([("table", FAR)], [("phone", phone)], [("table", FAR), ("phone", phone)])
     ]
     one, other, both = (answer.gains[0] for answer in answers if answer is not None)
@@ -503,21 +503,99 @@ def held_up(monkeypatch: pytest.MonkeyPatch) -> tuple[HapticSession, Event]:
     return made, go_on
 
 
-def test_a_worker_may_add_an_impact_while_the_latest_are_listed() -> None:
+def test_impact_that_a_worker_prepares_sounds_before_the_next_update_which_reports_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    made, go_on = held_up(monkeypatch)
+    made.update(touches=touches())
+    made.wait_prepared()
+    impact = made.strike("table", STRUCK)
+    ((_, job),) = made._impacts._waiting
+    go_on.set()
+    job.result(30.0)
+    assert rendered(made, 0.2).any(axis=0).all()
+    assert not impact.felt  # a game may iterate over it, so only its own thread changes it
+    made.update(touches=touches())
+    assert set(impact.felt) == {"left", "right"}
+    assert made.impacts == (impact,)
+    assert made.stats.impacts_felt == 1
+
+
+def test_impact_that_a_worker_prepares_in_a_pause_is_not_felt(monkeypatch: pytest.MonkeyPatch) -> None:
+    made, go_on = held_up(monkeypatch)
+    made.update(touches=touches())
+    made.wait_prepared()
+    impact = made.strike("table", STRUCK)
+    made.pause()
+    go_on.set()
+    made.wait_prepared()
+    assert impact.felt == {}
+    assert made.impacts == ()
+    made.resume()
+    assert not rendered(made, 0.2).any()
+
+
+def test_burst_that_a_worker_starts_as_a_pause_begins_does_not_play_on_after_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     made = session()
-    recent = made._impacts._recent
+    playback, wave = made._playback, wave_of(100.0, 0.5, RATE)
+    worker = Thread(target=lambda: playback.start_burst([wave], {playback.outputs[0]: [0.5]}, 0))
+    fade = playback._bursts.fade
 
-    class Met:
-        felt: tuple[str, ...] = ()
+    def slow_fade(given: Any) -> None:
+        fade(given)
+        worker.start()
+        worker.join(0.1)
 
-        @property
-        def at_sample(self) -> int:
-            recent.append(later)
-            return 0
+    monkeypatch.setattr(playback._bursts, "fade", slow_fade)
+    made.pause()
+    worker.join()
+    rendered(made, 0.2)
+    made.resume()
+    assert not rendered(made, 0.2).any()
 
-    later = Impact("table", STRUCK, None, None, 100.0, 0)
-    recent.extend([later, Met()])  # type: ignore[list-item]
-    assert len(made.impacts) == 2
+
+def test_impact_for_which_a_model_fails_is_counted_as_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    made, _ = held_up(monkeypatch)
+    monkeypatch.setattr(felt_impacts, "struck_later", lambda *given: lambda: 1 / 0)
+    made.update(touches=touches())
+    assert not made.strike("table", STRUCK).felt
+    assert made.wait_prepared(30.0)
+    assert made.stats.impacts_left_out == 1
+
+
+@pytest.mark.parametrize("propagation", ["exponential_plate", "modal_plate"])
+@pytest.mark.parametrize(
+    ("touching", "removed", "added", "channel"),
+    [
+        ("right", ("left",), (), 1),
+        ("right", ("left", "mid"), ("mid", "left"), 0),
+        ("mid", ("left",), ("left",), 0),
+        ("left", (), ("foot",), 0),
+        ("left", ("left",), (), None),
+        ("left", ("left",), ("left",), None),
+    ],
+)
+def test_strike_after_hands_have_changed_is_felt_by_the_hand_that_touches(
+    touching: str, removed: tuple[str, ...], added: tuple[str, ...], channel: int | None, propagation: str
+) -> None:
+    scene, bundle = table_with_two_phones()
+    made = HapticSession(scene, bundle, {"propagation": propagation}, hands=("left", "mid", "right"))
+    for source_id in made.source_ids:
+        made.set_source(source_id, on=False)
+    made.update(touches=[Touch(touching, "table", NEAR)])
+    assert made.wait_prepared(30.0)
+    for hand in removed:
+        made.remove_hand(hand)
+    for hand in added:
+        made.add_hand(hand)
+    impact = made.strike("table", STRUCK, with_object="cup", speed_m_s=1.0)
+    feeling = () if channel is None else (channel,)
+    assert [*impact.felt] == [made.hands[i] for i in feeling]
+    assert tuple(np.flatnonzero(rendered(made, 0.2).any(axis=0))) == feeling
+    for i, hand in enumerate(made.hands):
+        assert bool(made.explain(hand).touches) == (i in feeling)
 
 
 @pytest.mark.parametrize("touching", ["left", "right"])

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from scene2hap import AudioClip, HapticLoop, HapticSession, Touch
+from scene2hap.common.cached_while_used import CacheWhileUsed
 from scene2hap.haptics import Bands
 from scene2hap.session.mix import prepared_loops
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
@@ -41,8 +42,8 @@ def notes(monkeypatch: pytest.MonkeyPatch) -> Iterator[Notes]:
     prepared_loops._worker().submit(lambda: None).result(SECONDS)
     noted = Notes()
     monkeypatch.setattr(prepared_loops, "_made", noted.made)
-    for remembered in ("_OF_CLIP", "_BY_CONTENT", "_NEWEST"):
-        monkeypatch.setattr(prepared_loops, remembered, type(getattr(prepared_loops, remembered))())
+    monkeypatch.setattr(prepared_loops, "_OF_CLIP", {})
+    monkeypatch.setattr(prepared_loops, "_BY_CONTENT", CacheWhileUsed(prepared_loops.MOST_BYTES))
     yield noted
     noted.gate.set()
 
@@ -58,7 +59,7 @@ def add_fan(s: HapticSession, frequency_hz: float, name: str = "fan", x: float =
 
 def test_a_loop_is_found_as_long_as_its_own_clip_lives(notes: Notes, monkeypatch: pytest.MonkeyPatch) -> None:
     """Without reading samples, since a session looks loops up while it plays; and not under an equal clip that dies."""
-    monkeypatch.setattr(prepared_loops, "KEPT_BYTES", 0)
+    monkeypatch.setattr(prepared_loops._BY_CONTENT, "most_bytes", 0)
     bands = Bands.dominant()
     first, second = tone_loop(150.0).tactile, tone_loop(150.0).tactile
     assert first == second
@@ -85,7 +86,7 @@ def test_newest_loops_are_kept_for_objects_that_come_again(notes: Notes, monkeyp
     one = prepared_loops.prepare(tone_loop(150.0).tactile, Bands.dominant(), RATE).bank.nbytes
     assert n_made(160.0, 170.0) == 2
     assert n_made(150.0, 160.0, 170.0) == 0
-    monkeypatch.setattr(prepared_loops, "KEPT_BYTES", round(2.5 * one))
+    monkeypatch.setattr(prepared_loops._BY_CONTENT, "most_bytes", round(2.5 * one))
     assert n_made(160.0) == 0  # and the oldest goes
     assert n_made(160.0, 170.0) == 0
     assert n_made(150.0) == 1
@@ -190,6 +191,5 @@ def test_unused_prepared_loops_are_released() -> None:
         samples = np.full(RATE * 8, n / 500, dtype=np.float32)
         clip = AudioClip(samples, RATE)
         prepared_loops.prepare(HapticLoop(clip, clip, 100.0, 100.0).tactile, Bands.dominant(), RATE)
-    kept = sum(loop.bank.nbytes for loop in prepared_loops._NEWEST.values())
-    assert RATE * 8 * 4 < kept <= prepared_loops.KEPT_BYTES
+    assert RATE * 8 * 4 < prepared_loops._BY_CONTENT.kept_bytes <= prepared_loops.MOST_BYTES
     assert len(prepared_loops._OF_CLIP) < 400

@@ -20,7 +20,7 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.scene import objects
 from scene2hap.scene.objects import Contact
-from scene2hap.session import prepared_shapes
+from scene2hap.session import worker_threads
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.prepared_shapes import PreparedShapes
 from scene2hap.session.worker_threads import start_worker
@@ -50,8 +50,8 @@ def test_workers_prepare_without_a_loading_screen() -> None:
     meshes = [ball(17), ball(18, subdivisions=1)]
     kept, shapes = [shape_of(mesh) for mesh in meshes], PreparedShapes(is_wanted=True, in_background=True)
     shapes.order(meshes)
-    assert shapes._worker is not None
-    shapes._worker.join(30)
+    assert shapes._last is not None
+    shapes._last.result(30)
     assert all(shape.is_prepared for shape in kept)
 
 
@@ -87,7 +87,7 @@ def test_a_wave_of_spawned_objects_starts_one_worker(monkeypatch: pytest.MonkeyP
         return start_worker(*given)
 
     monkeypatch.setattr(Shape, "prepare", lambda shape: go_on.wait(30))
-    monkeypatch.setattr(prepared_shapes, "start_worker", start)
+    monkeypatch.setattr(worker_threads, "start_worker", start)
     shapes = PreparedShapes(is_wanted=True, in_background=True)
     meshes = [ball(11), ball(19), ball(20)]
     for mesh in meshes * 7:
@@ -95,7 +95,6 @@ def test_a_wave_of_spawned_objects_starts_one_worker(monkeypatch: pytest.MonkeyP
     assert len(started) == 1
     go_on.set()
     assert shapes.wait(Deadline(30))
-    assert not shapes._waiting
 
 
 def test_a_shape_is_kept_for_later_copies_as_long_as_its_mesh_lives() -> None:
