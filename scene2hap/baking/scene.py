@@ -24,6 +24,7 @@ from scene2hap.bundle.checking import vain_corrections
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
 from scene2hap.common.counted import counted, first_of
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import ConfigError, SceneError
 from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
 from scene2hap.llm.chain import Inference, infer_scene
@@ -36,7 +37,6 @@ from scene2hap.scene import limits
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.grouping.empty_names import names_a_place
 from scene2hap.scene.objects import SceneObject, UpAxis
-from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.snapshot import SceneSnapshot
 
 OnReport = Callable[[InferenceReport], None]

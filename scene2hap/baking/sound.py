@@ -28,8 +28,8 @@ from scene2hap.baking.fingerprint import OWN_CLIP, converter_name, differences, 
 from scene2hap.baking.recorded_times import NO_RUNS, Runs, runs_of, shown_runs
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.common.blas_threads import one_blas_thread
+from scene2hap.common.warning import warn_of
 from scene2hap.haptics import ObjectHaptics, SourceState, VibrationDescription
-from scene2hap.scene.scene_warning import warn_of
 
 Progress = Callable[[str, str, int, int], None]
 """Called with (stage, step, number done, total number)."""

@@ -12,6 +12,7 @@ from pydantic import ValidationError
 
 from scene2hap.common import checks
 from scene2hap.common.counted import counted
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError
 from scene2hap.llm.answers import Answer, AnswerType, read_answer
 from scene2hap.llm.backends import chat
@@ -19,7 +20,6 @@ from scene2hap.llm.json_text import answer_object
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import Component, LLMBackend, LLMReply, LLMRequest
 from scene2hap.llm.report import InferenceReport
-from scene2hap.scene.scene_warning import warn_of
 
 
 class Slots:

@@ -42,8 +42,8 @@ from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.audio.tactile.sections import through_sections
 from scene2hap.common import checks
 from scene2hap.common.text_files import path_in_c
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import AudioError, ConfigError
-from scene2hap.scene.scene_warning import warn_of
 
 FORMATS = {
     ".wav": ("WAV", "PCM_24"),

@@ -38,6 +38,7 @@ from scene2hap.bundle import HapticBundle, read_overrides
 from scene2hap.bundle.sounds import file_stem
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
+from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import ConfigError, unwritable
 from scene2hap.llm.chain import Inference
 from scene2hap.llm.lexicon import LexiconBackend
@@ -51,7 +52,6 @@ from scene2hap.scene.files import scene_stem
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.looks.textures import TextureWarning
 from scene2hap.scene.plausibility.units import UnitWarning
-from scene2hap.scene.scene_warning import SceneWarning
 from scene2hap.scene.snapshot import SceneSnapshot
 
 Report = TypeVar("Report")

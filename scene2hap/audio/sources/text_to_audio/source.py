@@ -21,10 +21,10 @@ from scene2hap.audio.sources.text_to_audio.process import Allowance, CannotStart
 from scene2hap.common import checks
 from scene2hap.common.calls import not_pickled
 from scene2hap.common.settings import cache_folder
+from scene2hap.common.warning import warn_of
 from scene2hap.common.web import is_safe
 from scene2hap.errors import AudioError, BackendError, BadAnswer, ConfigError
 from scene2hap.haptics import VibrationDescription
-from scene2hap.scene.scene_warning import warn_of
 
 RUNNERS = ("audiogen", "stable_audio")
 
