@@ -117,7 +117,7 @@ def convert(
     """Convert a sound file to a tactile one of the same length and rate; written whole or not at all.
 
     Parameters:
-    source : WAV, FLAC, Ogg or MP3 of any length; silence that is packed into few bytes is refused.
+    source : WAV, FLAC, Ogg, MP3, AIFF, AU, CAF or Opus of any length; silence packed into few bytes is refused.
     output : its suffix (`FORMATS`) chooses the format.
     converter : a kind, a mapping with a `kind` and its settings, or an instance; each channel gets its own stream.
     actuator : a profile, its name, or a CSV file of its response, which is compensated; intensity : of the source, 0..1
