@@ -105,18 +105,18 @@ async def abake(
     limits.at_most("the number of objects", len(scene.objects), "MAX_OBJECTS")  # else its bundle could not be loaded
     _require_callable(progress=progress, on_report=on_report)
     config = BakeConfig.parse(config)
-    wishes = of_this_scene(overrides or {}, scene)
-    inference = await infer_corrected(scene, config.llm, config, wishes, user_prompt=user_prompt, progress=progress)
+    overrides = of_this_scene(overrides or {}, scene)
+    inference = await infer_corrected(scene, config.llm, config, overrides, user_prompt=user_prompt, progress=progress)
     if on_report is not None:
         on_report(inference.report)
-    return await with_sounds(scene, inference.scene_category, inference.objects, wishes, config, progress, earlier)
+    return await with_sounds(scene, inference.scene_category, inference.objects, overrides, config, progress, earlier)
 
 
 async def with_sounds(
     scene: SceneSnapshot,
     scene_category: str,
     inferred: Mapping[str, ObjectHaptics],
-    wishes: Mapping[str, Override],
+    overrides: Mapping[str, Override],
     config: BakeConfig,
     progress: Progress | None = None,
     earlier: HapticBundle | None = None,
@@ -124,19 +124,19 @@ async def with_sounds(
     """Make the sounds of an inferred scene. Returns its bundle, as `bake` after inference. Raises: AudioError."""
     before = Earlier()
     if earlier is not None:
-        locked = {key: loops for key, loops in earlier.loops.items() if key in wishes and wishes[key].locked}
+        locked = {key: loops for key, loops in earlier.loops.items() if key in overrides and overrides[key].locked}
         before = Earlier(locked, earlier.choices)
     kept = {
         key: _with_vibration(haptics, earlier.objects[key]) if earlier is not None and key in before.loops else haptics
         for key, haptics in inferred.items()
     }
-    objects = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in kept.items()}
-    sounds = await make_loops(objects, wishes, config, progress or _say_nothing, before, kept)
-    objects = _as_recorded(objects, sounds.loops, {}, wishes)
+    objects = {key: _as_wished(haptics, overrides.get(key)) for key, haptics in kept.items()}
+    sounds = await make_loops(objects, overrides, config, progress or _say_nothing, before, kept)
+    objects = _as_recorded(objects, sounds.loops, {}, overrides)
     _warn_of(scene, objects)
-    for doubt in vain_corrections(objects, wishes):
+    for doubt in vain_corrections(objects, overrides):
         warn_of(doubt, BundleWarning)
-    return HapticBundle(scene, scene_category, objects, sounds.loops, wishes, sounds.choices, _made_with(config))
+    return HapticBundle(scene, scene_category, objects, sounds.loops, overrides, sounds.choices, _made_with(config))
 
 
 @clear_call
@@ -226,12 +226,12 @@ async def arebake(
     if isinstance(objects, str):
         raise ConfigError(f"objects is the text {objects!r}; give a list of ids, [{objects!r}].")
     objects = checks.items("objects", objects, error=ConfigError)
-    wishes = bundle.overrides
-    silent = [key for key, wish in wishes.items() if wish.vibrates and not bundle.objects[key].vibrates]
+    overrides = bundle.overrides
+    silent = [key for key, override in overrides.items() if override.vibrates and not bundle.objects[key].vibrates]
     renamed = [
         key
         for key, haptics in bundle.objects.items()
-        if haptics.reasons.get("name") != _why_named(wishes.get(key, Override()).name)
+        if haptics.reasons.get("name") != _why_named(overrides.get(key, Override()).name)
     ]
     objects = [*objects, *renamed]
     again = list(dict.fromkeys([*objects, *silent]))
@@ -239,7 +239,7 @@ async def arebake(
         bundle.snapshot,
         config.llm,
         config,
-        wishes,
+        overrides,
         user_prompt=user_prompt,
         progress=progress,
         only=again,
@@ -252,7 +252,7 @@ async def arebake(
         for key, haptics in inference.objects.items()
     }
     inferred = {**bundle.objects, **answers}
-    said = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in inferred.items()}
+    said = {key: _as_wished(haptics, overrides.get(key)) for key, haptics in inferred.items()}
     earlier = Earlier(
         bundle.loops,
         bundle.choices,
@@ -260,14 +260,14 @@ async def arebake(
         any_source=not given & {"audio", "enough_candidates"},
         any_making=not given & {"actuator", "tactile", "spread"},
     )
-    sounds = await make_loops(said, wishes, config, progress or _say_nothing, earlier, inferred)
+    sounds = await make_loops(said, overrides, config, progress or _say_nothing, earlier, inferred)
     if on_remade is not None:
         on_remade(sounds.remade)
-    _warn_of_weak(sounds.loops, sounds.remade, wishes)
+    _warn_of_weak(sounds.loops, sounds.remade, overrides)
     made_with = _made_with(config) if _all_are_known(sounds.loops) else None
-    said = _as_recorded(said, sounds.loops, bundle.loops, wishes)
-    known = vain_corrections(bundle.objects, wishes)
-    for doubt in vain_corrections(said, wishes):
+    said = _as_recorded(said, sounds.loops, bundle.loops, overrides)
+    known = vain_corrections(bundle.objects, overrides)
+    for doubt in vain_corrections(said, overrides):
         if doubt not in known:
             warn_of(doubt, BundleWarning)
     return replace(bundle, objects=said, loops=sounds.loops, choices=sounds.choices, made_with=made_with)
@@ -338,11 +338,11 @@ def _all_are_known(loops: Mapping[str, Mapping[str, HapticLoop]]) -> bool:
 def _warn_of_weak(
     loops: Mapping[str, Mapping[str, HapticLoop]],
     remade: Mapping[str, Mapping[str, object]],
-    wishes: Mapping[str, Override],
+    overrides: Mapping[str, Override],
 ) -> None:
     """Warn of loops that were made from a person's own sounds and miss their level. Warns: LevelWarning."""
     for key, states in remade.items():
-        clip = wishes[key].clip if key in wishes else None
+        clip = overrides[key].clip if key in overrides else None
         for state in states if clip is not None and not clip.is_vibration else ():
             felt = loops[key][state].felt
             doubt = level_doubt(f"{key}, {state},", felt.level_db, felt.asked_level_db) if felt is not None else ""
@@ -354,7 +354,7 @@ async def infer_corrected(
     scene: SceneSnapshot,
     backend: LLMBackend,
     config: BakeConfig,
-    wishes: Mapping[str, Override],
+    overrides: Mapping[str, Override],
     *,
     user_prompt: str = "",
     progress: Progress | None = None,
@@ -362,41 +362,41 @@ async def infer_corrected(
     scene_category: str | None = None,
     slots: Slots | None = None,
 ) -> Inference:
-    """Infer a scene by the names that a person gave, and with the wish that objects vibrate. See `infer_scene`."""
+    """Infer a scene with the names and vibration of the overrides. See `infer_scene`."""
     tell = progress or _say_nothing
     inference = await infer_scene(
-        _renamed(scene, wishes),
+        _renamed(scene, overrides),
         backend,
         user_prompt=user_prompt,
         config=config,
         progress=lambda what, done, total: tell("inference", what + _hits(backend), done, total),
         only=only,
         scene_category=scene_category,
-        wishes={key: _VIBRATES for key, wish in wishes.items() if wish.vibrates},
+        object_prompts={key: _VIBRATES for key, override in overrides.items() if override.vibrates},
         slots=slots,
     )
     return replace(
-        inference, objects={key: _as_named(key, said, wishes.get(key)) for key, said in inference.objects.items()}
+        inference, objects={key: _as_named(key, said, overrides.get(key)) for key, said in inference.objects.items()}
     )
 
 
-def _as_named(object_id: str, haptics: ObjectHaptics, wish: Override | None) -> ObjectHaptics:
+def _as_named(object_id: str, haptics: ObjectHaptics, override: Override | None) -> ObjectHaptics:
     """Note the name that a person gave an object, by which it was inferred. Warns: BundleWarning: it is unknown."""
-    why = None if wish is None else _why_named(wish.name)
-    if wish is None or why is None:
+    why = None if override is None else _why_named(override.name)
+    if override is None or why is None:
         return haptics
     if is_unknown(haptics.object_category):
         warn_of(
-            f"nothing is known of {checks.shown(wish.name)}, the name that a person gave {object_id!r}; no material "
-            "and no vibration are inferred. Use a common noun, as 'washing machine', or infer it by a model (llm).",
+            f"nothing is known of {checks.shown(override.name)}, the name that a person gave {object_id!r}; no "
+            "material and no vibration are inferred. Use a common noun, as 'washing machine', or a model (llm).",
             BundleWarning,
         )
     return replace(haptics, reasons={**haptics.reasons, "name": why})
 
 
-def _renamed(scene: SceneSnapshot, wishes: Mapping[str, Override]) -> SceneSnapshot:
+def _renamed(scene: SceneSnapshot, overrides: Mapping[str, Override]) -> SceneSnapshot:
     """Return the scene with the names that a person gave."""
-    names = {key: wish.name for key, wish in wishes.items() if wish.name is not None}
+    names = {key: override.name for key, override in overrides.items() if override.name is not None}
     if not names:
         return scene
     return replace(scene, objects=tuple(replace(item, name=names.get(item.id, item.name)) for item in scene.objects))
@@ -408,7 +408,7 @@ def _why_named(name: str | None) -> str | None:
 
 def with_locked(folder: Path, overrides: Mapping[str, Override]) -> HapticBundle | None:
     """Return the bundle in a folder if a person has locked loops in it, None otherwise. Raises: BundleError."""
-    return HapticBundle.load(folder) if any(wish.locked for wish in overrides.values()) else None
+    return HapticBundle.load(folder) if any(override.locked for override in overrides.values()) else None
 
 
 def _with_vibration(before: ObjectHaptics, asked: ObjectHaptics) -> ObjectHaptics:
@@ -425,26 +425,26 @@ def _with_vibration(before: ObjectHaptics, asked: ObjectHaptics) -> ObjectHaptic
     )
 
 
-def _as_wished(haptics: ObjectHaptics, wish: Override | None) -> ObjectHaptics:
+def _as_wished(haptics: ObjectHaptics, override: Override | None) -> ObjectHaptics:
     """Apply a person's correction to an object. If it makes the object vibrate, the object gets at least one state."""
-    if wish is None:
+    if override is None:
         return haptics
-    if wish.vibrates and not haptics.states:
+    if override.vibrates and not haptics.states:
         words = haptics.object_category
         on = SourceState("on", _ASSUMED_INTENSITY, f"{words} running", f"{words} humming")
         haptics = replace(haptics, vibrates=True, states=(on,))
-    return wish.applied(haptics)
+    return override.applied(haptics)
 
 
 def _as_recorded(
     objects: Mapping[str, ObjectHaptics],
     loops: Mapping[str, Mapping[str, HapticLoop]],
     before: Mapping[str, Mapping[str, HapticLoop]],
-    wishes: Mapping[str, Override],
+    overrides: Mapping[str, Override],
 ) -> dict[str, ObjectHaptics]:
     """Return the objects with the times from recordings. A person's corrections have priority."""
     return {
-        key: wishes[key].applied(haptics) if key in wishes else haptics
+        key: overrides[key].applied(haptics) if key in overrides else haptics
         for key, haptics in with_recorded_times(objects, loops, before).items()
     }
 
@@ -455,7 +455,7 @@ def of_this_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) -> di
     Raises: ConfigError: they are no overrides. Warns: BundleWarning: one of an absent object is dropped.
     """
     wrong = (
-        [wish for wish in overrides.values() if not isinstance(wish, Override)]
+        [override for override in overrides.values() if not isinstance(override, Override)]
         if isinstance(overrides, Mapping)
         else [overrides]
     )
@@ -465,15 +465,15 @@ def of_this_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) -> di
             "`bundle.overrides` is."
         )
     known = {item.id for item in scene.objects}
-    for object_id, wish in overrides.items():
-        if object_id not in known and wish.corrections():
+    for object_id, override in overrides.items():
+        if object_id not in known and override.corrections():
             near = checks.did_you_mean(object_id, sorted(known - overrides.keys()))
             warn_of(
                 f"the override of {object_id!r} is dropped: the scene has no such object any more. Dropped are its "
-                f"{', '.join(wish.corrections())}. {near}".rstrip(),
+                f"{', '.join(override.corrections())}. {near}".rstrip(),
                 BundleWarning,
             )
-    return {key: wish for key, wish in overrides.items() if key in known}
+    return {key: override for key, override in overrides.items() if key in known}
 
 
 def _hits(backend: object) -> str:

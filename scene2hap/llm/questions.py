@@ -50,7 +50,7 @@ class Questions:
         *,
         user_prompt: str = "",
         temperature: float = 0.2,
-        wishes: Mapping[str, str] | None = None,
+        object_prompts: Mapping[str, str] | None = None,
     ) -> None:
         self.report: InferenceReport = InferenceReport()
         self.closed_by: Exception | None = None
@@ -59,7 +59,7 @@ class Questions:
         self._slots = slots
         self._user_prompt = user_prompt
         self._temperature = temperature
-        self._wishes = wishes or {}
+        self._object_prompts = object_prompts or {}
 
     async def _completed(self, request: LLMRequest) -> LLMReply:
         """Return the backend's reply. Raises: ConfigError: it is not an `LLMReply`."""
@@ -119,7 +119,7 @@ class Questions:
         request = LLMRequest(
             component=component,
             subject=subject,
-            prompt=self._prompts.fill(component, facts, self._wish(subject)),
+            prompt=self._prompts.fill(component, facts, self._user_prompt_for(subject)),
             facts=facts,
             answer_schema=_schema(shape),
             prompt_version=self._prompts.version,
@@ -148,12 +148,12 @@ class Questions:
         self.report.take(reply)
         return reply
 
-    def has_wish(self, subject: str) -> bool:
-        """Return True if the user gave a wish for this object alone."""
-        return bool(self._wishes.get(subject))
+    def has_own_prompt(self, subject: str) -> bool:
+        """Return True if the user gave a prompt for this object alone."""
+        return bool(self._object_prompts.get(subject))
 
-    def _wish(self, subject: str) -> str:
-        return " ".join(filter(None, (self._user_prompt, self._wishes.get(subject, ""))))
+    def _user_prompt_for(self, subject: str) -> str:
+        return " ".join(filter(None, (self._user_prompt, self._object_prompts.get(subject, ""))))
 
 
 @cache

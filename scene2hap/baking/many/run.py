@@ -282,9 +282,9 @@ class Run:
         scene = await asyncio.to_thread(load_scene, path, **self.options)
         read_s, begun = time.perf_counter() - begun, time.perf_counter()
         seen = await self._captured(path, scene) if self.pictures else scene
-        wishes = read_overrides(self._target(path))
+        overrides = read_overrides(self._target(path))
         found = await infer_corrected(
-            seen, backend, self.config, wishes, user_prompt=self.user_prompt, slots=self.slots
+            seen, backend, self.config, overrides, user_prompt=self.user_prompt, slots=self.slots
         )
         return _Inferred(scene, found, {"reading": read_s, "inference": time.perf_counter() - begun})
 

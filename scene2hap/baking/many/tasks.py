@@ -45,13 +45,13 @@ def bake_scene(
     with _watched(n_threads) as watch:
         snapshot = load_scene(scene, **options)
         accounts: list[InferenceReport] = []
-        wishes = read_overrides(Path(target))
+        overrides = read_overrides(Path(target))
         bundle = bake(
             snapshot,
             config,
             user_prompt=user_prompt,
-            overrides=wishes,
-            earlier=with_locked(Path(target), wishes),
+            overrides=overrides,
+            earlier=with_locked(Path(target), overrides),
             on_report=accounts.append,
         )
         bundle.save(target)
@@ -68,14 +68,14 @@ def make_sounds(n_threads: int, draft: str, target: str, config: BakeConfig) -> 
     """Make the loops of a draft, and write the bundle. Raises: AudioError, BundleError."""
     with _watched(n_threads) as watch:
         inferred = HapticBundle.load(draft)
-        wishes = of_this_scene(read_overrides(Path(target)), inferred.snapshot)
+        overrides = of_this_scene(read_overrides(Path(target)), inferred.snapshot)
         baking = with_sounds(
             inferred.snapshot,
             inferred.scene_category,
             inferred.objects,
-            wishes,
+            overrides,
             config,
-            earlier=with_locked(Path(target), wishes),
+            earlier=with_locked(Path(target), overrides),
         )
         bundle = asyncio.run(baking)
         bundle.save(target)
