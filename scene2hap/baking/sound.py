@@ -34,6 +34,11 @@ from scene2hap.haptics import ObjectHaptics, SourceState, VibrationDescription
 Progress = Callable[[str, str, int, int], None]
 """Called with (stage, step, number done, total number)."""
 
+
+def no_progress(stage: str, step: str, n_done: int, n: int) -> None:
+    """Ignore progress."""
+
+
 Remade = Mapping[str, Mapping[str, tuple[str, ...]]]
 """Reasons why each loop was made, by id and state: parts of its fingerprint, or "new"."""
 
@@ -90,7 +95,7 @@ async def make_loops(
     objects: Mapping[str, ObjectHaptics],
     overrides: Mapping[str, Override],
     config: BakeConfig,
-    tell: Progress,
+    progress: Progress | None = None,
     earlier: Earlier | None = None,
     inferred: Mapping[str, ObjectHaptics] | None = None,
 ) -> Sounds:
@@ -101,7 +106,7 @@ async def make_loops(
     the sound itself.
     """
     wanted = [(key, haptics, state) for key, haptics in objects.items() if haptics.vibrates for state in haptics.states]
-    before = earlier or Earlier()
+    before, tell = earlier or Earlier(), progress or no_progress
     sounds, chooser = Sounds(), _Chooser(config, overrides, before, inferred or objects)
     parts = []
     for done, (object_id, haptics, state) in enumerate(wanted, start=1):

@@ -29,11 +29,11 @@ from typing import Any, TypeVar
 from filelock import AsyncFileLock
 
 from scene2hap.baking.config import BakeConfig
+from scene2hap.baking.corrections import infer_corrected
 from scene2hap.baking.many.pool import Pool, Submits
 from scene2hap.baking.many.record import REPORT, WORK, Record, read_record, scene_digest, settings_digest, write_record
 from scene2hap.baking.many.report import ManyReport, SceneReport
 from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds, take_pictures
-from scene2hap.baking.scene import infer_corrected
 from scene2hap.bundle import HapticBundle, read_overrides
 from scene2hap.bundle.sounds import file_stem
 from scene2hap.common import checks
