@@ -13,7 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from scene2hap.audio.conversion.stream import FORMATS, Conversion, convert, settled
+from scene2hap.audio.conversion.one_file import Conversion, convert, settled
+from scene2hap.audio.conversion.writing import FORMATS
 from scene2hap.audio.files import READABLE, SUFFIXES
 from scene2hap.audio.haptic_loop import LevelWarning
 from scene2hap.audio.tactile import DEFAULT_CONVERTER
