@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.audio.clip import AudioClip, Credit
+from scene2hap.audio.files import SUFFIXES
 from scene2hap.audio.select import MIN_DURATION_S
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES, how_many
 from scene2hap.audio.sources.disk_cache import MAX_CLIP_S, Store, digest, plain_line
@@ -32,7 +33,6 @@ _RUNNER_FOLDER = Path(__file__).parents[1] / "runners"
 _PATIENCE = 2
 """Failures in a row after which the program is not started again."""
 _MAX_FILE_BYTES = 100_000_000
-_SUFFIXES = (".wav", ".flac", ".ogg", ".mp3")
 _ENTRY = "takes.json"
 _ORIGIN = "text_to_audio"
 
@@ -135,7 +135,7 @@ class TextToAudio:
         clips: list[AudioClip] = []
         names: list[str] = []
         for index, name in enumerate(reply.files[: request.count]):
-            suffix = Path(name).suffix if Path(name).suffix in _SUFFIXES else ".wav"
+            suffix = Path(name).suffix if Path(name).suffix in SUFFIXES else ".wav"
             try:
                 content = read_file(folder, name, _MAX_FILE_BYTES)
                 clips.append(self._store.keep_clip(f"{key}/{index}{suffix}", content, _credit(request, reply, index)))
