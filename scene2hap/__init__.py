@@ -27,7 +27,7 @@ _NAMES_IN = {
     "scene2hap.scene.objects": ("Contact", "Hinge", "SceneObject"),
     "scene2hap.scene.surface.outline": ("Outline",),
     "scene2hap.scene.shapes": ("Box", "DominantSurface", "TriMesh"),
-    "scene2hap.scene.scene_warning": ("SceneWarning",),
+    "scene2hap.common.warning": ("SceneWarning",),
     "scene2hap.scene.snapshot": ("SceneSnapshot",),
     "scene2hap.materials": ("Material",),
     "scene2hap.haptics": ("ActuatorProfile", "Bands", "ObjectHaptics", "SourceState", "VibrationDescription"),
@@ -175,6 +175,7 @@ if TYPE_CHECKING:
     from scene2hap.bundle import HapticBundle as HapticBundle, Override as Override
     from scene2hap.clips.haptic_clip import HapticClip as HapticClip
     from scene2hap.clips.reading import read_haptic_clip as read_haptic_clip
+    from scene2hap.common.warning import SceneWarning as SceneWarning
     from scene2hap.contact.graph import ContactChange as ContactChange, ContactGraph as ContactGraph
     from scene2hap.devices.memory import MemorySink as MemorySink
     from scene2hap.devices.protocol import ActuatorSink as ActuatorSink, SinkEvent as SinkEvent, SinkStats as SinkStats
@@ -238,7 +239,6 @@ if TYPE_CHECKING:
     from scene2hap.scene.objects import Contact as Contact, Hinge as Hinge, SceneObject as SceneObject
     from scene2hap.scene.pose import Pose as Pose
     from scene2hap.scene.pose_table import PoseTable as PoseTable
-    from scene2hap.scene.scene_warning import SceneWarning as SceneWarning
     from scene2hap.scene.shapes import Box as Box, DominantSurface as DominantSurface, TriMesh as TriMesh
     from scene2hap.scene.snapshot import SceneSnapshot as SceneSnapshot
     from scene2hap.scene.surface.outline import Outline as Outline

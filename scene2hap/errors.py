@@ -21,7 +21,8 @@ that ``except ValueError`` works for callers who do not know the tree::
     │   └── ClipError                             a haptic clip, or its file, that cannot be used
     ├── BundleError (ValueError)                  a bundle folder that cannot be read or written
     │   ├── BundleIncomplete                      a file is missing, cut short or was only partly changed
-    │   └── BundleVersionError                    written by a newer scene2hap
+    │   ├── BundleVersionError                    written by a newer scene2hap
+    │   └── BundleChanged                         another process has replaced the folder since it was read
     ├── ExportError (ValueError)                  an export that cannot be made
     ├── SessionError (ValueError)                 invalid input at play time
     ├── BridgeError (ValueError)                  an invalid message of a client

@@ -37,7 +37,7 @@ def pytest_configure(config: pytest.Config) -> None:
     if config.option.basetemp is None and os.access(MEMORY, os.W_OK) and disk_usage(MEMORY).free > LEAST_MEMORY_BYTES:
         config.option.basetemp = mkdtemp(prefix="scene2hap-tests-", dir=MEMORY)
         config.add_cleanup(lambda: rmtree(config.option.basetemp, ignore_errors=True))
-    config.addinivalue_line("filterwarnings", "ignore::scene2hap.scene.scene_warning.SceneWarning")
+    config.addinivalue_line("filterwarnings", "ignore::scene2hap.common.warning.SceneWarning")
 
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)

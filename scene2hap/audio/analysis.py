@@ -16,10 +16,10 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.audio.clip import Samples
-from scene2hap.audio.components import peak_offset
-from scene2hap.audio.heard import heard
+from scene2hap.audio.spectra.components import peak_offset
+from scene2hap.audio.spectra.heard import heard
+from scene2hap.audio.spectra.windows import hann
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ
-from scene2hap.audio.windows import hann
 from scene2hap.common import checks
 from scene2hap.errors import AudioError
 

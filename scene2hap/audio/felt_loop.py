@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from scene2hap.audio.actuators import equalize_loop
-from scene2hap.audio.anchor import Anchor, anchor_of, band_of
+from scene2hap.audio.anchor.whole_sound import Anchor, anchor_of, band_of
 from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.audio.distinctness import rhythm_hz
 from scene2hap.audio.haptic_loop import HapticLoop, Sensation

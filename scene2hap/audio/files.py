@@ -32,9 +32,19 @@ silence at 655 kHz."""
 MAX_SAMPLE = 1e9
 """Largest sample of a file of floats, re full scale. Larger ones are damage, and their powers exceed float32; assumed:
 twice the scale of programs that write integers of 30 bits as floats."""
-SUFFIXES = frozenset(
-    {".wav", ".flac", ".ogg", ".mp3", ".aif", ".aiff", ".au", ".caf", ".oga", ".opus", ".rf64", ".w64"}
-)
+_SUFFIXES_OF = {
+    "WAV": (".wav", ".rf64", ".w64"),
+    "FLAC": (".flac",),
+    "Ogg": (".ogg", ".oga"),
+    "MP3": (".mp3",),
+    "AIFF": (".aif", ".aiff"),
+    "AU": (".au",),
+    "CAF": (".caf",),
+    "Opus": (".opus",),
+}
+READABLE = " or ".join(", ".join(_SUFFIXES_OF).rsplit(", ", 1))
+"""The formats of sound files, for messages."""
+SUFFIXES = frozenset(suffix for suffixes in _SUFFIXES_OF.values() for suffix in suffixes)
 """Suffixes of sound files, by which they are found in folders. A file that is given by itself may have any suffix."""
 
 MAX_CHANNELS = 64
@@ -49,7 +59,7 @@ _BITS: dict[str, int] = {"PCM_16": 16, "PCM_24": 24, "PCM_32": 32}
 
 
 def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
-    """Read a WAV, FLAC, Ogg or MP3 file as a mono clip at its own rate.
+    """Read a sound file as a mono clip at its own rate. Any format of libsndfile with a header is read: see `READABLE`.
 
     Several channels are mixed by their mean; if they cancel each other, the strongest is taken (`Mixdown`).
 
@@ -149,9 +159,7 @@ def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
     except OSError as cause:
         raise AudioError(f"{path} cannot be read ({cause.strerror}). Choose a file that is yours.") from cause
     except (soundfile.SoundFileError, TypeError) as cause:  # TypeError: a headerless file, for which a rate is needed
-        raise AudioError(
-            f"{path}: not a readable sound ({reason_of(cause)}). Use a WAV, FLAC, Ogg or MP3 file."
-        ) from cause
+        raise AudioError(f"{path}: not a readable sound ({reason_of(cause)}). Use {READABLE}.") from cause
 
 
 def require_finite(path: Path, channels: Samples, start: int = 0) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scene2hap.scene.scene_warning import warn_of
+from scene2hap.common.warning import warn_of
 
 _USUAL_DB = 40.0  # A factor of 100, more than the range from the weakest to the strongest felt vibration.
 

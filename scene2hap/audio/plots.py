@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.audio.spectra.windows import hann
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ, threshold_db
-from scene2hap.audio.windows import hann
 from scene2hap.common.plots import SOUND, THRESHOLD, TOUCH, add_legend, new_figure, plain, set_title
 
 if TYPE_CHECKING:

@@ -9,45 +9,43 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
-from scene2hap.audio.haptic_loop import HapticLoop, LevelWarning, level_doubt
+from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.baking.config import BakeConfig
+from scene2hap.baking.corrections import (
+    apply_overrides,
+    infer_corrected,
+    objects_without_states,
+    overrides_of_scene,
+    renamed_objects,
+    replace_vibration,
+)
 from scene2hap.baking.fingerprint import converter_settings
+from scene2hap.baking.likely_mistakes import (
+    all_have_fingerprints,
+    warn_of_scene,
+    warn_of_vain_corrections,
+    warn_of_weak_loops,
+)
 from scene2hap.baking.recorded_times import with_recorded_times
-from scene2hap.baking.sound import Earlier, Progress, Remade, make_loops
-from scene2hap.bundle import BundleWarning, HapticBundle, MadeWith, Override
+from scene2hap.baking.sound import Earlier, Progress, Remade, Sounds, make_loops
+from scene2hap.bundle import HapticBundle, MadeWith, Override
 from scene2hap.bundle.arguments import given_bundle
-from scene2hap.bundle.checking import vain_corrections
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
-from scene2hap.common.counted import counted, first_of
 from scene2hap.errors import ConfigError, SceneError
-from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
-from scene2hap.llm.chain import Inference, infer_scene
-from scene2hap.llm.protocol import LLMBackend
-from scene2hap.llm.questions import Slots
+from scene2hap.haptics import ObjectHaptics
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.run_coroutine import run_waiting
-from scene2hap.llm.wrappers import reports
 from scene2hap.scene import limits
 from scene2hap.scene.arguments import given_scene
-from scene2hap.scene.grouping.empty_names import names_a_place
 from scene2hap.scene.objects import SceneObject, UpAxis
-from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.snapshot import SceneSnapshot
 
 OnReport = Callable[[InferenceReport], None]
 OnRemade = Callable[[Remade], None]
-
-
-_VIBRATES = "This object vibrates by itself: tell in which states."
-"""Prompt for an object that a person wants to vibrate."""
-
-_ASSUMED_INTENSITY = 0.3
-"""Intensity of a state that a person requests and no model describes."""
 
 
 @clear_call
@@ -105,38 +103,50 @@ async def abake(
     limits.at_most("the number of objects", len(scene.objects), "MAX_OBJECTS")  # else its bundle could not be loaded
     _require_callable(progress=progress, on_report=on_report)
     config = BakeConfig.parse(config)
-    wishes = of_this_scene(overrides or {}, scene)
-    inference = await infer_corrected(scene, config.llm, config, wishes, user_prompt=user_prompt, progress=progress)
+    overrides = overrides_of_scene(overrides or {}, scene)
+    inference = await infer_corrected(scene, config.llm, config, overrides, user_prompt=user_prompt, progress=progress)
     if on_report is not None:
         on_report(inference.report)
-    return await with_sounds(scene, inference.scene_category, inference.objects, wishes, config, progress, earlier)
+    return await bake_inferred(scene, inference.scene_category, inference.objects, overrides, config, progress, earlier)
 
 
-async def with_sounds(
+async def bake_inferred(
     scene: SceneSnapshot,
     scene_category: str,
     inferred: Mapping[str, ObjectHaptics],
-    wishes: Mapping[str, Override],
+    overrides: Mapping[str, Override],
     config: BakeConfig,
     progress: Progress | None = None,
     earlier: HapticBundle | None = None,
 ) -> HapticBundle:
-    """Make the sounds of an inferred scene. Returns its bundle, as `bake` after inference. Raises: AudioError."""
-    before = Earlier()
+    """Make the loops of an inferred scene. Returns its bundle, as `bake` after inference. Raises: AudioError."""
+    locked = Earlier()
     if earlier is not None:
-        locked = {key: loops for key, loops in earlier.loops.items() if key in wishes and wishes[key].locked}
-        before = Earlier(locked, earlier.choices)
-    kept = {
-        key: _with_vibration(haptics, earlier.objects[key]) if earlier is not None and key in before.loops else haptics
-        for key, haptics in inferred.items()
-    }
-    objects = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in kept.items()}
-    sounds = await make_loops(objects, wishes, config, progress or _say_nothing, before, kept)
-    objects = _as_recorded(objects, sounds.loops, {}, wishes)
-    _warn_of(scene, objects)
-    for doubt in vain_corrections(objects, wishes):
-        warn_of(doubt, BundleWarning)
-    return HapticBundle(scene, scene_category, objects, sounds.loops, wishes, sounds.choices, _made_with(config))
+        loops = {key: loops for key, loops in earlier.loops.items() if key in overrides and overrides[key].locked}
+        locked = Earlier(loops, earlier.choices)
+        kept = {key: replace_vibration(inferred[key], earlier.objects[key]) for key in loops if key in inferred}
+        inferred = {**inferred, **kept}
+    objects, sounds = await _make_loops(inferred, overrides, config, progress, locked, {})
+    warn_of_scene(scene, objects)
+    warn_of_vain_corrections(objects, overrides)
+    return HapticBundle(scene, scene_category, objects, sounds.loops, overrides, sounds.choices, _made_with(config))
+
+
+async def _make_loops(
+    inferred: Mapping[str, ObjectHaptics],
+    overrides: Mapping[str, Override],
+    config: BakeConfig,
+    progress: Progress | None,
+    earlier: Earlier,
+    timed_by: Mapping[str, Mapping[str, HapticLoop]],
+) -> tuple[dict[str, ObjectHaptics], Sounds]:
+    """Return the corrected objects, with the times of recordings, and their loops.
+
+    `timed_by` has the loops whose times the inferred objects have already. A person's corrections have priority.
+    """
+    objects = apply_overrides(inferred, overrides)
+    sounds = await make_loops(objects, overrides, config, progress, earlier, inferred)
+    return apply_overrides(with_recorded_times(objects, sounds.loops, timed_by), overrides), sounds
 
 
 @clear_call
@@ -225,21 +235,13 @@ async def arebake(
     given, config = config.model_fields_set, _settings_of(bundle, config)
     if isinstance(objects, str):
         raise ConfigError(f"objects is the text {objects!r}; give a list of ids, [{objects!r}].")
-    objects = checks.items("objects", objects, error=ConfigError)
-    wishes = bundle.overrides
-    silent = [key for key, wish in wishes.items() if wish.vibrates and not bundle.objects[key].vibrates]
-    renamed = [
-        key
-        for key, haptics in bundle.objects.items()
-        if haptics.reasons.get("name") != _why_named(wishes.get(key, Override()).name)
-    ]
-    objects = [*objects, *renamed]
-    again = list(dict.fromkeys([*objects, *silent]))
+    anew = [*checks.items("objects", objects, error=ConfigError), *renamed_objects(bundle)]
+    again = list(dict.fromkeys([*anew, *objects_without_states(bundle)]))
     inference = await infer_corrected(
         bundle.snapshot,
         config.llm,
         config,
-        wishes,
+        bundle.overrides,
         user_prompt=user_prompt,
         progress=progress,
         only=again,
@@ -247,12 +249,9 @@ async def arebake(
     )
     if on_report is not None:
         on_report(inference.report)
-    answers = {
-        key: haptics if key in objects else _with_vibration(bundle.objects[key], haptics)
-        for key, haptics in inference.objects.items()
-    }
-    inferred = {**bundle.objects, **answers}
-    said = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in inferred.items()}
+    inferred = dict(bundle.objects)
+    for key, haptics in inference.objects.items():
+        inferred[key] = haptics if key in anew else replace_vibration(bundle.objects[key], haptics)
     earlier = Earlier(
         bundle.loops,
         bundle.choices,
@@ -260,41 +259,13 @@ async def arebake(
         any_source=not given & {"audio", "enough_candidates"},
         any_making=not given & {"actuator", "tactile", "spread"},
     )
-    sounds = await make_loops(said, wishes, config, progress or _say_nothing, earlier, inferred)
+    baked, sounds = await _make_loops(inferred, bundle.overrides, config, progress, earlier, bundle.loops)
     if on_remade is not None:
         on_remade(sounds.remade)
-    _warn_of_weak(sounds.loops, sounds.remade, wishes)
-    made_with = _made_with(config) if _all_are_known(sounds.loops) else None
-    said = _as_recorded(said, sounds.loops, bundle.loops, wishes)
-    known = vain_corrections(bundle.objects, wishes)
-    for doubt in vain_corrections(said, wishes):
-        if doubt not in known:
-            warn_of(doubt, BundleWarning)
-    return replace(bundle, objects=said, loops=sounds.loops, choices=sounds.choices, made_with=made_with)
-
-
-def _warn_of(scene: SceneSnapshot, objects: Mapping[str, ObjectHaptics]) -> None:
-    """Warn about probable mistakes. Units are left out, since `load_scene` has warned about them."""
-    doubts = [found for found in scene.check() if found.kind != "units"]
-    for found in doubts:
-        warn_of(str(found))
-    unknown = [key for key, haptics in objects.items() if is_unknown(haptics.object_category)]
-    if len(objects) > 1 and not any(haptics.vibrates for haptics in objects.values()):
-        # The loose parts of a merged room have its name.
-        is_room = any(names_a_place(item.name) for item in scene.objects)
-        is_one_model = 2 * len(unknown) > len(objects) and not is_room
-        parts = " If the file is one model of many parts, load it with group=0." if is_one_model else ""
-        warn_of(
-            f"none of {len(objects)} objects of {scene.name!r} vibrates; nothing will be felt. Give objects names that "
-            f"say what they are, let a model look at them (llm), or override(id, vibrates=True).{parts}"
-        )
-    elif len(objects) == 1 and unknown:
-        is_merged = any(found.kind == "merged" for found in doubts)
-        merges = "" if is_merged else " If it merges several objects, load it with group='loose' or group='leaf'."
-        warn_of(
-            f"{scene.name!r} is one object, {scene.objects[0].name!r}, which is unknown; nothing will be felt.{merges} "
-            "If it is one object, give it a name that says what it is, or let a model look at it (llm)."
-        )
+    warn_of_weak_loops(sounds, bundle.overrides)
+    made_with = _made_with(config) if all_have_fingerprints(sounds.loops) else None
+    warn_of_vain_corrections(baked, bundle.overrides, bundle.objects)
+    return replace(bundle, objects=baked, loops=sounds.loops, choices=sounds.choices, made_with=made_with)
 
 
 def _require_callable(**callbacks: object) -> None:
@@ -321,164 +292,3 @@ def _settings_of(bundle: HapticBundle, config: BakeConfig) -> BakeConfig:
             )
         kept["tactile"] = CONVERTERS.build(kept["tactile"])
     return config.model_copy(update=kept)
-
-
-def _all_are_known(loops: Mapping[str, Mapping[str, HapticLoop]]) -> bool:
-    """Return True if every loop has a fingerprint. Warns: BundleWarning: loops without one."""
-    unknown = [key for key, states in loops.items() if not all(loop.fingerprint for loop in states.values())]
-    if unknown:
-        warn_of(
-            f"the loops of {counted(len(unknown), 'source')} ({first_of(unknown, 3)}) have no fingerprint, as in "
-            "older bundles, and stay as they are. Give actuator or tactile to make them again.",
-            BundleWarning,
-        )
-    return not unknown
-
-
-def _warn_of_weak(
-    loops: Mapping[str, Mapping[str, HapticLoop]],
-    remade: Mapping[str, Mapping[str, object]],
-    wishes: Mapping[str, Override],
-) -> None:
-    """Warn of loops that were made from a person's own sounds and miss their level. Warns: LevelWarning."""
-    for key, states in remade.items():
-        clip = wishes[key].clip if key in wishes else None
-        for state in states if clip is not None and not clip.is_vibration else ():
-            felt = loops[key][state].felt
-            doubt = level_doubt(f"{key}, {state},", felt.level_db, felt.asked_level_db) if felt is not None else ""
-            if doubt:
-                warn_of(doubt, LevelWarning)
-
-
-async def infer_corrected(
-    scene: SceneSnapshot,
-    backend: LLMBackend,
-    config: BakeConfig,
-    wishes: Mapping[str, Override],
-    *,
-    user_prompt: str = "",
-    progress: Progress | None = None,
-    only: Collection[str] | None = None,
-    scene_category: str | None = None,
-    slots: Slots | None = None,
-) -> Inference:
-    """Infer a scene by the names that a person gave, and with the wish that objects vibrate. See `infer_scene`."""
-    tell = progress or _say_nothing
-    inference = await infer_scene(
-        _renamed(scene, wishes),
-        backend,
-        user_prompt=user_prompt,
-        config=config,
-        progress=lambda what, done, total: tell("inference", what + _hits(backend), done, total),
-        only=only,
-        scene_category=scene_category,
-        wishes={key: _VIBRATES for key, wish in wishes.items() if wish.vibrates},
-        slots=slots,
-    )
-    return replace(
-        inference, objects={key: _as_named(key, said, wishes.get(key)) for key, said in inference.objects.items()}
-    )
-
-
-def _as_named(object_id: str, haptics: ObjectHaptics, wish: Override | None) -> ObjectHaptics:
-    """Note the name that a person gave an object, by which it was inferred. Warns: BundleWarning: it is unknown."""
-    why = None if wish is None else _why_named(wish.name)
-    if wish is None or why is None:
-        return haptics
-    if is_unknown(haptics.object_category):
-        warn_of(
-            f"nothing is known of {checks.shown(wish.name)}, the name that a person gave {object_id!r}; no material "
-            "and no vibration are inferred. Use a common noun, as 'washing machine', or infer it by a model (llm).",
-            BundleWarning,
-        )
-    return replace(haptics, reasons={**haptics.reasons, "name": why})
-
-
-def _renamed(scene: SceneSnapshot, wishes: Mapping[str, Override]) -> SceneSnapshot:
-    """Return the scene with the names that a person gave."""
-    names = {key: wish.name for key, wish in wishes.items() if wish.name is not None}
-    if not names:
-        return scene
-    return replace(scene, objects=tuple(replace(item, name=names.get(item.id, item.name)) for item in scene.objects))
-
-
-def _why_named(name: str | None) -> str | None:
-    return None if name is None else f"a person calls it {name!r}."
-
-
-def with_locked(folder: Path, overrides: Mapping[str, Override]) -> HapticBundle | None:
-    """Return the bundle in a folder if a person has locked loops in it, None otherwise. Raises: BundleError."""
-    return HapticBundle.load(folder) if any(wish.locked for wish in overrides.values()) else None
-
-
-def _with_vibration(before: ObjectHaptics, asked: ObjectHaptics) -> ObjectHaptics:
-    """Return an object with the vibration of another answer. The rest stays: a bundle has no pictures, from which the
-    material may have been inferred, and a person may have edited it."""
-    by = {name: who for name, who in asked.provenance.items() if name == "vibrates" or name.startswith("states.")}
-    why = {name: reason for name, reason in asked.reasons.items() if name == "vibration"}
-    return replace(
-        before,
-        vibrates=asked.vibrates,
-        states=asked.states,
-        provenance={**before.provenance, **by},
-        reasons={**before.reasons, **why},
-    )
-
-
-def _as_wished(haptics: ObjectHaptics, wish: Override | None) -> ObjectHaptics:
-    """Apply a person's correction to an object. If it makes the object vibrate, the object gets at least one state."""
-    if wish is None:
-        return haptics
-    if wish.vibrates and not haptics.states:
-        words = haptics.object_category
-        on = SourceState("on", _ASSUMED_INTENSITY, f"{words} running", f"{words} humming")
-        haptics = replace(haptics, vibrates=True, states=(on,))
-    return wish.applied(haptics)
-
-
-def _as_recorded(
-    objects: Mapping[str, ObjectHaptics],
-    loops: Mapping[str, Mapping[str, HapticLoop]],
-    before: Mapping[str, Mapping[str, HapticLoop]],
-    wishes: Mapping[str, Override],
-) -> dict[str, ObjectHaptics]:
-    """Return the objects with the times from recordings. A person's corrections have priority."""
-    return {
-        key: wishes[key].applied(haptics) if key in wishes else haptics
-        for key, haptics in with_recorded_times(objects, loops, before).items()
-    }
-
-
-def of_this_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) -> dict[str, Override]:
-    """Return the overrides of the objects of a scene.
-
-    Raises: ConfigError: they are no overrides. Warns: BundleWarning: one of an absent object is dropped.
-    """
-    wrong = (
-        [wish for wish in overrides.values() if not isinstance(wish, Override)]
-        if isinstance(overrides, Mapping)
-        else [overrides]
-    )
-    if wrong:
-        raise ConfigError(
-            f"overrides is or has {checks.described(wrong[0])}; it must be a mapping of ids to Override, as "
-            "`bundle.overrides` is."
-        )
-    known = {item.id for item in scene.objects}
-    for object_id, wish in overrides.items():
-        if object_id not in known and wish.corrections():
-            near = checks.did_you_mean(object_id, sorted(known - overrides.keys()))
-            warn_of(
-                f"the override of {object_id!r} is dropped: the scene has no such object any more. Dropped are its "
-                f"{', '.join(wish.corrections())}. {near}".rstrip(),
-                BundleWarning,
-            )
-    return {key: wish for key, wish in overrides.items() if key in known}
-
-
-def _hits(backend: object) -> str:
-    kept = reports(backend).get("CacheBackend", {}).get("hits")
-    return f" ({kept} answers kept)" if kept else ""
-
-
-def _say_nothing(stage: str, what: str, done: int, total: int) -> None: ...

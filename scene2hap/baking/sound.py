@@ -28,11 +28,16 @@ from scene2hap.baking.fingerprint import OWN_CLIP, converter_name, differences, 
 from scene2hap.baking.recorded_times import NO_RUNS, Runs, runs_of, shown_runs
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.common.blas_threads import one_blas_thread
+from scene2hap.common.warning import warn_of
 from scene2hap.haptics import ObjectHaptics, SourceState, VibrationDescription
-from scene2hap.scene.scene_warning import warn_of
 
 Progress = Callable[[str, str, int, int], None]
 """Called with (stage, step, number done, total number)."""
+
+
+def no_progress(stage: str, step: str, n_done: int, n: int) -> None:
+    """Ignore progress."""
+
 
 Remade = Mapping[str, Mapping[str, tuple[str, ...]]]
 """Reasons why each loop was made, by id and state: parts of its fingerprint, or "new"."""
@@ -88,9 +93,9 @@ class _Part:
 
 async def make_loops(
     objects: Mapping[str, ObjectHaptics],
-    wishes: Mapping[str, Override],
+    overrides: Mapping[str, Override],
     config: BakeConfig,
-    tell: Progress,
+    progress: Progress | None = None,
     earlier: Earlier | None = None,
     inferred: Mapping[str, ObjectHaptics] | None = None,
 ) -> Sounds:
@@ -101,12 +106,12 @@ async def make_loops(
     the sound itself.
     """
     wanted = [(key, haptics, state) for key, haptics in objects.items() if haptics.vibrates for state in haptics.states]
-    before = earlier or Earlier()
-    sounds, chooser = Sounds(), _Chooser(config, wishes, before, inferred or objects)
+    before, tell = earlier or Earlier(), progress or no_progress
+    sounds, chooser = Sounds(), _Chooser(config, overrides, before, inferred or objects)
     parts = []
     for done, (object_id, haptics, state) in enumerate(wanted, start=1):
         part, why = await asyncio.to_thread(chooser.part, object_id, haptics, state)
-        parts.append(replace(part, pitch_hz=_pitch_hz(object_id, state.name, wishes, config)))
+        parts.append(replace(part, pitch_hz=_pitch_hz(object_id, state.name, overrides, config)))
         if why:
             sounds.choices.setdefault(object_id, {})[state.name] = why
         tell("sound", object_id, done, len(wanted))
@@ -168,28 +173,28 @@ class _Chooser:
     def __init__(
         self,
         config: BakeConfig,
-        wishes: Mapping[str, Override],
+        overrides: Mapping[str, Override],
         earlier: Earlier,
         inferred: Mapping[str, ObjectHaptics],
     ) -> None:
-        self._config, self._wishes, self._earlier, self._inferred = config, wishes, earlier, inferred
+        self._config, self._overrides, self._earlier, self._inferred = config, overrides, earlier, inferred
         self._chosen: dict[VibrationDescription, tuple[AudioClip, str, Runs]] = {}
         self._own: dict[str, tuple[AudioClip, Runs]] = {}
 
     def part(self, object_id: str, haptics: ObjectHaptics, state: SourceState) -> tuple[_Part, str]:
         """Return the state with its sound, and the reason for the choice ("" without a choice)."""
-        wish, group = self._wishes.get(object_id), haptics.object_category
+        override, group = self._overrides.get(object_id), haptics.object_category
         before = self._earlier.loops.get(object_id, {}).get(state.name)
-        if wish is not None and wish.locked and before is not None:
+        if override is not None and override.locked and before is not None:
             why = self._earlier.choices.get(object_id, {}).get(state.name, "")
             return _Part(object_id, state, group, None, {}, before), why
-        if wish is not None and wish.clip is not None:
+        if override is not None and override.clip is not None:
             if object_id not in self._own:
-                self._own[object_id] = _own(wish.clip)
+                self._own[object_id] = _own(override.clip)
             clip, runs = self._own[object_id]
             request = {"words": OWN_CLIP, "sources": OWN_CLIP}
             shown = shown_runs(runs, state, before)
-            return _Part(object_id, state, group, clip, request, before, wish.keep, runs=shown), ""
+            return _Part(object_id, state, group, clip, request, before, override.keep, runs=shown), ""
         before_corrected = self._inferred.get(object_id, haptics)
         as_inferred = next((one for one in before_corrected.states if one.name == state.name), state)
         description = self._description(before_corrected, as_inferred)
@@ -274,14 +279,14 @@ def _as_of(part: _Part, loop: HapticLoop, fingerprint: Mapping[str, str]) -> Hap
     return replace(loop, fingerprint=fingerprint, start_up=start_up, wind_down=wind_down)
 
 
-def _pitch_hz(object_id: str, state: str, wishes: Mapping[str, Override], config: BakeConfig) -> float | None:
+def _pitch_hz(object_id: str, state: str, overrides: Mapping[str, Override], config: BakeConfig) -> float | None:
     """Return the pitch that a person requests [Hz], moved into the actuator's band; None if none.
 
     Warns: BundleWarning: it was moved, or the converter does not move sources.
     """
-    wish, actuator = wishes.get(object_id), config.actuator
-    wanted_hz = wish.pitch_of(state) if wish is not None else None
-    if wish is None or wanted_hz is None or wish.locked:
+    override, actuator = overrides.get(object_id), config.actuator
+    wanted_hz = override.pitch_of(state) if override is not None else None
+    if override is None or wanted_hz is None or override.locked:
         return None
     limits = f"pitch_hz of {object_id!r} is {wanted_hz:g} Hz; "
     if not getattr(config.tactile, "follows_target", False):

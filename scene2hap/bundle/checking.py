@@ -10,10 +10,10 @@ from typing import Any
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.override import ANY_STATE, BY_STATE, Override
 from scene2hap.common.checks import did_you_mean, shown
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import BundleError
 from scene2hap.haptics import ObjectHaptics, SourceState, unmet_needs
 from scene2hap.materials import Material
-from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.surface import plate_sizes
 
 

@@ -29,8 +29,8 @@ from scene2hap.bundle.folder_swap import exchange
 from scene2hap.bundle.foreign_files import carry_over, discard
 from scene2hap.bundle.manifest import MANIFEST, our_files
 from scene2hap.common.file_stamp import Stamp, file_stamp
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import BundleChanged, BundleError, BundleIncomplete, reason_of, unwritable
-from scene2hap.scene.scene_warning import warn_of
 
 try:
     import fcntl

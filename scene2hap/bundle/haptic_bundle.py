@@ -20,10 +20,10 @@ from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
 from scene2hap.common.counted import counted
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import BundleError
 from scene2hap.materials import Material
 from scene2hap.scene.plausibility.check import too_heavy
-from scene2hap.scene.scene_warning import warn_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure

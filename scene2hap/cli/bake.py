@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
-from scene2hap.baking.scene import with_locked
+from scene2hap.baking.corrections import bundle_with_locked
 from scene2hap.bundle import HapticBundle, differences, read_overrides, require_replaceable, write_both
 from scene2hap.bundle.account import write_account
 from scene2hap.cli.console import Console
@@ -127,7 +127,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             progress=tell,
             on_report=accounts.append,
             overrides=overrides,
-            earlier=with_locked(target, overrides),
+            earlier=bundle_with_locked(target, overrides),
         )
     kept = kept_before(str(target)) if before is not None and _is_other(before, bundle) else None
     folder = bundle.save(target) if before is None or kept is None else write_both(bundle, target, before, kept)

@@ -16,6 +16,7 @@ from typing import Any
 
 from scene2hap.audio.actuators import ACTUATORS
 from scene2hap.audio.conversion import FORMATS, Conversion, Failure, convert_files
+from scene2hap.audio.files import READABLE
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.cli.console import Console
 from scene2hap.cli.shared_options import given_spec
@@ -31,7 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "sources",
         metavar="IN",
         nargs="+",
-        help="sound files (WAV, FLAC, Ogg, MP3, AIFF, AU, CAF, Opus), or folders of them",
+        help=f"sound files ({READABLE}), or folders of them",
     )
     parser.add_argument("-o", "--output", metavar="OUT", required=True, help="a file for one file, otherwise a folder")
     parser.add_argument(

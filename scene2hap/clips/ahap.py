@@ -22,8 +22,8 @@ import numpy as np
 
 from scene2hap.clips.fields import Fields, read_fields, rising_times
 from scene2hap.clips.haptic_clip import MAX_CLIP_S, MAX_POINTS, About, ClipWarning, Curve, HapticClip, Transient, Values
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import ClipError
-from scene2hap.scene.scene_warning import warn_of
 
 SUFFIX = ".ahap"
 MAX_EVENT_S = 30.0

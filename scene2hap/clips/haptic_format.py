@@ -14,7 +14,7 @@ import numpy as np
 
 from scene2hap.clips.fields import Fields, read_fields, rising_times
 from scene2hap.clips.haptic_clip import MAX_POINTS, About, ClipWarning, Curve, HapticClip, Transient
-from scene2hap.scene.scene_warning import warn_of
+from scene2hap.common.warning import warn_of
 
 SUFFIX = ".haptic"
 _VERSION = 1

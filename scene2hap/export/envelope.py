@@ -14,7 +14,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from scene2hap.audio.windows import hann
+from scene2hap.audio.spectra.windows import hann
 from scene2hap.export.frequency_ridge import ridge_hz
 
 Signal = NDArray[np.float64]

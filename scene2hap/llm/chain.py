@@ -78,13 +78,13 @@ async def infer_scene(
     progress: Progress | None = None,
     only: Collection[str] | None = None,
     scene_category: str | None = None,
-    wishes: Mapping[str, str] | None = None,
+    object_prompts: Mapping[str, str] | None = None,
     slots: Slots | None = None,
 ) -> Inference:
     """Run the chain on every object of a scene, or only on the objects with ids in `only`.
 
     If the scene has images (`capture_images`), the backend gets them. A known `scene_category` saves the call that
-    infers it. `wishes` are user prompts for single objects, by object id. `slots` limit the
+    infers it. `object_prompts` are further user prompts, each for one object, by object id. `slots` limit the
     concurrent questions of several scenes together; without them, `concurrency` limits those of this scene.
 
     An object without an answer becomes "unknown" and silent. Its error is in the report and in its provenance. An error
@@ -105,7 +105,7 @@ async def infer_scene(
         slots or Slots(settings.concurrency),
         user_prompt=user_prompt,
         temperature=settings.temperature,
-        wishes=wishes,
+        object_prompts=object_prompts,
     )
     wanted = [scene.object(object_id) for object_id in only] if only is not None else list(scene.objects)
     # Find contacts while waiting for the first answer.
@@ -174,8 +174,8 @@ class _Chain:
         standing_for = copies(self._scene, self._graph, self._chains) if self._settings.share_copies else {}
         groups: dict[tuple[str, bool], list[SceneObject]] = {}
         for item in wanted:
-            # A wish for one object does not apply to its copies, so such an object does not share an answer.
-            is_alone = self._questions.has_wish(item.id)
+            # A prompt for one object does not apply to its copies, so such an object does not share an answer.
+            is_alone = self._questions.has_own_prompt(item.id)
             first = item.id if is_alone else standing_for.get(item.id, item.id)
             groups.setdefault((first, is_alone), []).append(item)
         firsts = {members[0].id: members for members in groups.values()}

@@ -12,6 +12,7 @@ from pydantic import ValidationError
 
 from scene2hap.common import checks
 from scene2hap.common.counted import counted
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError
 from scene2hap.llm.answers import Answer, AnswerType, read_answer
 from scene2hap.llm.backends import chat
@@ -19,7 +20,6 @@ from scene2hap.llm.json_text import answer_object
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import Component, LLMBackend, LLMReply, LLMRequest
 from scene2hap.llm.report import InferenceReport
-from scene2hap.scene.scene_warning import warn_of
 
 
 class Slots:
@@ -50,7 +50,7 @@ class Questions:
         *,
         user_prompt: str = "",
         temperature: float = 0.2,
-        wishes: Mapping[str, str] | None = None,
+        object_prompts: Mapping[str, str] | None = None,
     ) -> None:
         self.report: InferenceReport = InferenceReport()
         self.closed_by: Exception | None = None
@@ -59,7 +59,7 @@ class Questions:
         self._slots = slots
         self._user_prompt = user_prompt
         self._temperature = temperature
-        self._wishes = wishes or {}
+        self._object_prompts = object_prompts or {}
 
     async def _completed(self, request: LLMRequest) -> LLMReply:
         """Return the backend's reply. Raises: ConfigError: it is not an `LLMReply`."""
@@ -119,7 +119,7 @@ class Questions:
         request = LLMRequest(
             component=component,
             subject=subject,
-            prompt=self._prompts.fill(component, facts, self._wish(subject)),
+            prompt=self._prompts.fill(component, facts, self._user_prompt_for(subject)),
             facts=facts,
             answer_schema=_schema(shape),
             prompt_version=self._prompts.version,
@@ -148,12 +148,12 @@ class Questions:
         self.report.take(reply)
         return reply
 
-    def has_wish(self, subject: str) -> bool:
-        """Return True if the user gave a wish for this object alone."""
-        return bool(self._wishes.get(subject))
+    def has_own_prompt(self, subject: str) -> bool:
+        """Return True if the user gave a prompt for this object alone."""
+        return bool(self._object_prompts.get(subject))
 
-    def _wish(self, subject: str) -> str:
-        return " ".join(filter(None, (self._user_prompt, self._wishes.get(subject, ""))))
+    def _user_prompt_for(self, subject: str) -> str:
+        return " ".join(filter(None, (self._user_prompt, self._object_prompts.get(subject, ""))))
 
 
 @cache

@@ -13,8 +13,8 @@ from importlib.resources import files
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.html_tables import html_table, number
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import MaterialError, UnknownMaterial
-from scene2hap.scene.scene_warning import warn_of
 
 __all__ = ["Material", "MaterialRow", "find_row", "lookup", "lookup_row", "table"]
 

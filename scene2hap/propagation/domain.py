@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation.plate import Plate, require_frequencies, require_plate
-from scene2hap.scene.scene_warning import warn_of
 
 THIN_WAVELENGTHS = 6.0
 """Shortest wavelength for which thin-plate theory is used, in thicknesses. There its frequencies are already 15 % above

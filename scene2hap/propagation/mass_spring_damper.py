@@ -25,6 +25,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation.bodies.infinite_body import InfiniteBody
 from scene2hap.propagation.bodies.lattice_body import lattice_body
@@ -45,7 +46,6 @@ from scene2hap.propagation.lattice.stepping import ExactStepper, NewmarkStepper,
 from scene2hap.propagation.modal.modes import points_on
 from scene2hap.propagation.physical_model import PhysicalModel
 from scene2hap.propagation.plate import Plate
-from scene2hap.scene.scene_warning import warn_of
 
 CELLS_PER_WAVE = 4.0
 """Fewest cells in a bending wavelength; with four, the lattice turns it 0.7 % too fast."""

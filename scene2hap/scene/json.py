@@ -17,13 +17,13 @@ from pydantic import TypeAdapter, ValidationError
 
 from scene2hap.common import checks
 from scene2hap.common.printable import read_json
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.copies import as_copy, material_names
 from scene2hap.scene.files import HABITAT_SUFFIX
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject, with_relative_heights
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.shapes import DominantSurface, Geometry
 from scene2hap.scene.surface import plate_sizes
 

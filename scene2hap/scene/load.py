@@ -14,6 +14,7 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
 from scene2hap.common.counted import counted
 from scene2hap.common.printable import writable
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.files import HABITAT_SUFFIX, is_habitat, read_bytes, scene_stem
@@ -25,7 +26,6 @@ from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.looks.textures import TextureWarning
 from scene2hap.scene.objects import UpAxis, with_relative_heights
 from scene2hap.scene.plausibility.units import UnitWarning, warn_if_implausible
-from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.scene.tree import AuthoredScene
 

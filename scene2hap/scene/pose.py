@@ -14,9 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError
 from scene2hap.scene.geometry import frozen, vector
-from scene2hap.scene.scene_warning import warn_of
 
 # A quaternion this close to unit length is kept unchanged, so that JSON round trips are bit-identical. One shorter than
 # `LEAST_LENGTH` is no rotation.

@@ -15,12 +15,12 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.warning import warn_of
 from scene2hap.compiled import compiled
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.live import CostsByHand, LiveField, PathCostField, TouchedPoint
 from scene2hap.propagation.protocol import checked_gains
-from scene2hap.scene.scene_warning import warn_of
 from scene2hap.session.audibility import SILENT, Audibility, CutoffCost, within
 from scene2hap.session.config import MAX_GAIN_DB, SkipConfig
 from scene2hap.session.frame import Counts, Gains, Touch

@@ -20,12 +20,12 @@ import numpy as np
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.common.counted import counted
+from scene2hap.common.warning import warn_of
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics
 from scene2hap.scene.geometry import bounds_of, distances
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.plausibility.contact_normals import are_reversed
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import Touch
 from scene2hap.session.hand_gains import Felt

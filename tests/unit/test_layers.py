@@ -1,24 +1,27 @@
 """Imports follow the layers of docs/architecture.md; they are read from the source with `ast`."""
 
 import ast
+import re
 from functools import cache
 from pathlib import Path
 
 import networkx as nx
+import pytest
 
 PACKAGE = Path(__file__).parents[2] / "scene2hap"
+ARCHITECTURE = PACKAGE.parent / "docs" / "architecture.md"
 
 # From bottom to top; packages of one row never import each other.
 LAYERS = [
     {"errors", "compiled"},
     {"common"},
     {"plugins"},
-    {"scene"},
-    {"contact", "materials", "contact_needs"},
+    {"materials", "contact_needs"},
     {"haptics"},
-    {"propagation", "audio"},
-    {"clips"},
-    {"bundle"},
+    {"audio"},
+    {"clips", "scene"},
+    {"contact"},
+    {"propagation", "bundle"},
     {"llm", "render", "devices"},
     {"baking", "session"},
     {"engines"},
@@ -114,3 +117,20 @@ def test_no_modules_import_each_other_in_a_circle() -> None:
         graph.add_edges_from((name, other) for other in imports_of(path) & set(names.values()) if other != name)
     circles = [group for group in nx.strongly_connected_components(graph) if len(group) > 1]
     assert not circles
+
+
+@pytest.mark.parametrize("package", ["common", "scene", "audio", "llm", "session", "propagation"])
+def test_the_table_of_a_package_names_its_modules(package: str) -> None:
+    """Rows are "`module`, `module`" or "`subpackage`: `module`, `module`"."""
+    section = ARCHITECTURE.read_text(encoding="utf-8").partition(f"## Inside `{package}`\n")[2].partition("\n## ")[0]
+    named = set()
+    for row in re.findall(r"^\| (`.*?) \|", section, re.MULTILINE):
+        folder, colon, modules = row.partition(": ")
+        parent = folder.strip("`") if colon else ""
+        named |= {f"{parent}/{name}".strip("/") for name in re.findall(r"`(\w+)`", modules if colon else row)}
+        named |= {parent} if colon else set()
+    there = {path.stem for path in (PACKAGE / package).iterdir() if not path.name.startswith("_")}
+    assert there == {name for name in named if "/" not in name}
+    assert not {
+        name for name in named if not ((at := PACKAGE / package / name).is_dir() or at.with_suffix(".py").is_file())
+    }

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from scene2hap.audio.conversion.stream import FORMATS, Conversion, convert, settled
-from scene2hap.audio.files import SUFFIXES
+from scene2hap.audio.conversion.one_file import Conversion, convert, settled
+from scene2hap.audio.conversion.writing import FORMATS
+from scene2hap.audio.files import READABLE, SUFFIXES
 from scene2hap.audio.haptic_loop import LevelWarning
 from scene2hap.audio.tactile import DEFAULT_CONVERTER
 from scene2hap.common.counted import first_of
@@ -69,7 +70,7 @@ def convert_files(
     jobs, failures = _planned([Path(source) for source in sources], Path(output), suffix)
     if not jobs and not failures:
         given = first_of([repr(str(source)) for source in sources], _MOST_NAMED) or "an empty list"
-        raise AudioError(f"no sound file in {given}. Give WAV, FLAC, Ogg, MP3 or AIFF, or a folder of them.")
+        raise AudioError(f"no sound file in {given}. Give {READABLE}, or a folder of them.")
     outcomes: dict[int, Conversion | Failure] = dict(failures)
     tell = progress or (lambda name, done, total: None)
     for index, outcome in _outcomes(jobs, workers, pictures, settings):

@@ -7,7 +7,7 @@ import scipy
 from numpy.typing import NDArray
 
 from scene2hap.audio import analysis
-from scene2hap.audio.windows import hann
+from scene2hap.audio.spectra.windows import hann
 
 Block = NDArray[np.float32]
 """Samples (n, channels)."""

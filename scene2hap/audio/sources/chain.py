@@ -14,9 +14,9 @@ from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.protocol import AudioSource
 from scene2hap.audio.sources.disk_cache import is_long_enough
 from scene2hap.common import checks
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import AudioError, Scene2HapError
 from scene2hap.haptics import VibrationDescription
-from scene2hap.scene.scene_warning import warn_of
 
 ENOUGH = 1
 """Candidates after which no further source is queried; the paper's rule."""

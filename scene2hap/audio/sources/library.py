@@ -14,9 +14,9 @@ from scene2hap.audio.sources.candidates import MAX_CANDIDATES
 from scene2hap.audio.sources.word_stems import noun_phrase, stems
 from scene2hap.common import checks
 from scene2hap.common.text_files import read_small_text
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import AudioError, ConfigError, reason_of
 from scene2hap.haptics import VibrationDescription
-from scene2hap.scene.scene_warning import warn_of
 
 INDEX_NAME = "sounds.csv"
 

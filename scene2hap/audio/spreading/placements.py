@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from scene2hap.audio.anchor import Anchor, reachable_hz
+from scene2hap.audio.anchor.whole_sound import Anchor, reachable_hz
 from scene2hap.audio.distinctness import LEVEL_JND_DB, frequency_jnds
 from scene2hap.common.settings import Settings
 from scene2hap.haptics import ActuatorProfile

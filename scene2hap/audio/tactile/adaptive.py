@@ -20,13 +20,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scene2hap.audio.anchor import BAND_Q, Anchor, band_gain, reachable_hz
+from scene2hap.audio.anchor import TrackedAnchor
+from scene2hap.audio.anchor.whole_sound import BAND_Q, Anchor, band_gain, reachable_hz
 from scene2hap.audio.distinctness import FREQUENCY_WEBER
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.stages import Chain, ShiftStage, Signal, SosStage, Stage, StageStream
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
-from scene2hap.audio.tracked_anchor import TrackedAnchor
 from scene2hap.common import checks
 from scene2hap.errors import ConfigError
 

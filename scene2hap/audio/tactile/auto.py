@@ -19,9 +19,9 @@ from dataclasses import dataclass
 
 import scipy
 
-from scene2hap.audio.anchor import BAND_Q, CARRIER_RANGE_HZ, best_carrier_hz, is_beep
-from scene2hap.audio.heard import heard_sections
+from scene2hap.audio.anchor.whole_sound import BAND_Q, CARRIER_RANGE_HZ, best_carrier_hz, is_beep
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.spectra.heard import heard_sections
 from scene2hap.audio.tactile.adaptive import Adaptive, band_around
 from scene2hap.audio.tactile.envelope import EnvelopeCarrier
 from scene2hap.audio.tactile.following import HEADROOM_DB, Following

@@ -27,11 +27,11 @@ import numpy as np
 import scipy
 from numpy.lib.stride_tricks import sliding_window_view
 
+from scene2hap.audio.spectra.windows import hann
 from scene2hap.audio.tactile.onsets import STEP_S as LIVE_STEP_S
 from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.stages import Signal, Stage
 from scene2hap.audio.tactile.step_energies import StepEnergies
-from scene2hap.audio.windows import hann
 from scene2hap.compiled import compiled
 
 STEP_S = 0.01

@@ -29,15 +29,16 @@ from typing import Any, TypeVar
 from filelock import AsyncFileLock
 
 from scene2hap.baking.config import BakeConfig
+from scene2hap.baking.corrections import infer_corrected
 from scene2hap.baking.many.pool import Pool, Submits
 from scene2hap.baking.many.record import REPORT, WORK, Record, read_record, scene_digest, settings_digest, write_record
 from scene2hap.baking.many.report import ManyReport, SceneReport
 from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds, take_pictures
-from scene2hap.baking.scene import infer_corrected
 from scene2hap.bundle import HapticBundle, read_overrides
 from scene2hap.bundle.sounds import file_stem
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
+from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import ConfigError, unwritable
 from scene2hap.llm.chain import Inference
 from scene2hap.llm.lexicon import LexiconBackend
@@ -51,7 +52,6 @@ from scene2hap.scene.files import scene_stem
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.looks.textures import TextureWarning
 from scene2hap.scene.plausibility.units import UnitWarning
-from scene2hap.scene.scene_warning import SceneWarning
 from scene2hap.scene.snapshot import SceneSnapshot
 
 Report = TypeVar("Report")
@@ -282,9 +282,9 @@ class Run:
         scene = await asyncio.to_thread(load_scene, path, **self.options)
         read_s, begun = time.perf_counter() - begun, time.perf_counter()
         seen = await self._captured(path, scene) if self.pictures else scene
-        wishes = read_overrides(self._target(path))
+        overrides = read_overrides(self._target(path))
         found = await infer_corrected(
-            seen, backend, self.config, wishes, user_prompt=self.user_prompt, slots=self.slots
+            seen, backend, self.config, overrides, user_prompt=self.user_prompt, slots=self.slots
         )
         return _Inferred(scene, found, {"reading": read_s, "inference": time.perf_counter() - begun})
 

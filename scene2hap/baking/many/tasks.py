@@ -17,7 +17,8 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.scene import bake, of_this_scene, with_locked, with_sounds
+from scene2hap.baking.corrections import bundle_with_locked, overrides_of_scene
+from scene2hap.baking.scene import bake, bake_inferred
 from scene2hap.baking.sound import N_THREADS
 from scene2hap.bundle import HapticBundle, read_overrides
 from scene2hap.haptics import is_unknown
@@ -45,13 +46,13 @@ def bake_scene(
     with _watched(n_threads) as watch:
         snapshot = load_scene(scene, **options)
         accounts: list[InferenceReport] = []
-        wishes = read_overrides(Path(target))
+        overrides = read_overrides(Path(target))
         bundle = bake(
             snapshot,
             config,
             user_prompt=user_prompt,
-            overrides=wishes,
-            earlier=with_locked(Path(target), wishes),
+            overrides=overrides,
+            earlier=bundle_with_locked(Path(target), overrides),
             on_report=accounts.append,
         )
         bundle.save(target)
@@ -68,14 +69,14 @@ def make_sounds(n_threads: int, draft: str, target: str, config: BakeConfig) -> 
     """Make the loops of a draft, and write the bundle. Raises: AudioError, BundleError."""
     with _watched(n_threads) as watch:
         inferred = HapticBundle.load(draft)
-        wishes = of_this_scene(read_overrides(Path(target)), inferred.snapshot)
-        baking = with_sounds(
+        overrides = overrides_of_scene(read_overrides(Path(target)), inferred.snapshot)
+        baking = bake_inferred(
             inferred.snapshot,
             inferred.scene_category,
             inferred.objects,
-            wishes,
+            overrides,
             config,
-            earlier=with_locked(Path(target), wishes),
+            earlier=bundle_with_locked(Path(target), overrides),
         )
         bundle = asyncio.run(baking)
         bundle.save(target)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
+from scene2hap.common.warning import warn_of
 from scene2hap.llm.backends import chat
 from scene2hap.llm.protocol import LLMReply, LLMRequest
-from scene2hap.scene.scene_warning import warn_of
 
 CHARACTERS_PER_TOKEN = 4.0
 """Assumed: usual for English."""

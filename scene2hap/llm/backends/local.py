@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.secret import Secret
+from scene2hap.common.warning import warn_of
 from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.backends import chat, server_models
@@ -22,7 +23,6 @@ from scene2hap.llm.backends.image_tokens import LostImages
 from scene2hap.llm.json_text import first_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.schema import fields_in_words
-from scene2hap.scene.scene_warning import warn_of
 
 if TYPE_CHECKING:
     from scene2hap.common.web import Transport

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.secret import Secret
+from scene2hap.common.warning import warn_of
 from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.backends import chat
@@ -20,7 +21,6 @@ from scene2hap.llm.backends.http_errors import failure, server_error
 from scene2hap.llm.backends.image_tokens import ImagesAsText
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.schema import strict_schema
-from scene2hap.scene.scene_warning import warn_of
 
 if TYPE_CHECKING:
     from scene2hap.common.web import Transport

@@ -40,13 +40,13 @@ from numpy.typing import NDArray
 from scene2hap.common import checks
 from scene2hap.common.counted import first_of
 from scene2hap.common.printable import writable
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.formats.habitat_dataset import Dataset, Json, Kind, Template, read_object, rows_of, scale_of
 from scene2hap.scene.formats.habitat_names import Names, ObjectNames
 from scene2hap.scene.geometry import Bounds, bounds_of, joined
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, transform, with_own_keys
 
 _INSTANCES: dict[Kind, str] = {

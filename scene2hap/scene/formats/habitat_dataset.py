@@ -37,10 +37,10 @@ from numpy.typing import NDArray
 
 from scene2hap.common import checks
 from scene2hap.common.printable import read_json, writable
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 from scene2hap.scene.files import inside, outside, read_bytes
-from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.tree import Matrix
 
 Json = dict[str, Any]

@@ -24,10 +24,10 @@ from pathlib import Path
 
 from scene2hap.common import checks
 from scene2hap.common.printable import writable
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.files import read_bytes
 from scene2hap.scene.formats.habitat_dataset import Dataset, plain_name, read_object
-from scene2hap.scene.scene_warning import warn_of
 
 Names = Mapping[str, str] | str | os.PathLike[str]
 """Names by template, or the path of a table of them."""

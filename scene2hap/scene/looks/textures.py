@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.scene_warning import warn_of
 
 if TYPE_CHECKING:
     from PIL import Image

@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError
 from scene2hap.scene.geometry import joined
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
 from scene2hap.scene.plausibility.usual_sizes import DOOR, Usual, is_floor, usual
-from scene2hap.scene.scene_warning import warn_of
 
 
 class UnitWarning(UserWarning):

@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from threading import Thread
 from typing import Protocol
 
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import Scene2HapError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.controls import NoPropagation
@@ -24,7 +25,6 @@ from scene2hap.propagation.protocol import (
     PropagationModel,
 )
 from scene2hap.propagation.reference import FeltNear
-from scene2hap.scene.scene_warning import warn_of
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.fields.prepared import FieldInUse, LastField

@@ -9,7 +9,7 @@ import pytest
 import scipy.fft
 
 from scene2hap.audio.actuators import actuator_profile, response_db
-from scene2hap.audio.anchor import HIGHEST_PEAK_DB, anchor_of, best_carrier_hz, fast_length
+from scene2hap.audio.anchor.whole_sound import HIGHEST_PEAK_DB, anchor_of, best_carrier_hz, fast_length
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene

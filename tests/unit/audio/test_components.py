@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from scene2hap.audio.components import components, magnitudes, strongest_bands_hz
+from scene2hap.audio.spectra.components import components, magnitudes, strongest_bands_hz
 
 RATE = 8000
 RANGE = (20.0, 1000.0)

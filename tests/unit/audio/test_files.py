@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 import soundfile
 
+from scene2hap import audio
 from scene2hap.audio.clip import Credit
-from scene2hap.audio.files import read_clip, write_wav
+from scene2hap.audio.files import READABLE, SUFFIXES, read_clip, write_wav
 from scene2hap.errors import AudioError
 
 RATE = 8000
@@ -75,6 +76,20 @@ def test_read_clip_keeps_the_given_credit(tmp_path: Path) -> None:
     write_wav(tmp_path / "a.wav", tone(), RATE)
     credit = Credit("hum", "someone", "CC0-1.0")
     assert read_clip(str(tmp_path / "a.wav"), credit).credit is credit
+
+
+@pytest.mark.parametrize("suffix", sorted(SUFFIXES))
+def test_every_format_is_read_and_converted(tmp_path: Path, suffix: str) -> None:
+    formats = {".aif": "AIFF", ".oga": "OGG", ".opus": "OGG"}
+    path = tmp_path / f"hum{suffix}"
+    subtype = "OPUS" if suffix == ".opus" else None
+    soundfile.write(path, tone(), RATE, subtype=subtype, format=formats.get(suffix, suffix[1:].upper()))
+    assert read_clip(path).duration_s == pytest.approx(1.0, abs=0.1)
+    assert audio.convert(path, tmp_path / "felt.wav").duration_s == pytest.approx(1.0, abs=0.1)
+
+
+def test_the_docstring_of_convert_names_every_format() -> None:
+    assert READABLE in (audio.convert.__doc__ or "")
 
 
 def test_read_clip_refuses_files_that_are_not_sounds(tmp_path: Path) -> None:

@@ -8,8 +8,8 @@ from scipy.signal import sosfreqz
 
 from scene2hap.audio import analysis
 from scene2hap.audio.anchor import anchor_of
-from scene2hap.audio.heard import heard, heard_sections
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.spectra.heard import heard, heard_sections
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.haptics import ActuatorProfile
 

@@ -10,11 +10,11 @@ import soundfile
 
 from scene2hap.audio.actuators import actuator_profile
 from scene2hap.audio.anchor import anchor_of
+from scene2hap.audio.anchor.moving_pitch import growth_db, moving_pitch
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert, convert_clip
 from scene2hap.audio.felt_loop import SourceClip, plan_scene
 from scene2hap.audio.levels import sensation_level_db
-from scene2hap.audio.moving_pitch import growth_db, moving_pitch
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.adaptive import Adaptive
 from scene2hap.audio.tactile.auto import Auto

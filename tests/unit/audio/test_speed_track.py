@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from scene2hap.audio.speed_track import track_speed
+from scene2hap.audio.recorded_runs.speed_track import track_speed
 from starting_machines import RATE_HZ, machine
 
 

@@ -93,7 +93,7 @@ def test_user_prompt_for_one_copy_is_not_shared() -> None:
         *(replace(box(f"chair_{i}", (0.5, 0.5, 0.5), (2.0 * i, 0.25, 0.0)), instance_key="cube") for i in range(1, 5))
     )
     backend = Scripted()
-    asyncio.run(infer_scene(room, backend, wishes={"chair_3": "it is of steel"}))
+    asyncio.run(infer_scene(room, backend, object_prompts={"chair_3": "it is of steel"}))
     analysed = {r.subject: r.prompt for r in backend.asked if r.component == "object_analyzer"}
     assert set(analysed) == {"chair_1", "chair_3"}
     assert "it is of steel" in analysed["chair_3"]

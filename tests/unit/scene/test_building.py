@@ -13,13 +13,13 @@ import trimesh
 from edge_scenes import EDGE_SCENES
 from others import SCENES, needed
 from scene2hap import Box, DominantSurface, Hinge, Pose, SceneObject, SceneSnapshot, TriMesh, bake, load_scene
+from scene2hap.common.warning import SceneWarning
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import SceneError
 from scene2hap.llm.sharing import copies
 from scene2hap.scene.geometry import distances
 from scene2hap.scene.hinges import chains
 from scene2hap.scene.plausibility.units import UnitWarning
-from scene2hap.scene.scene_warning import SceneWarning
 
 ROOM = [
     SceneObject("floor", pose=Pose((0.0, -0.05, 0.0)), geometry=Box((4.0, 0.1, 4.0))),

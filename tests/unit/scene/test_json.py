@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import SceneError
 from scene2hap.scene.copies import copy_key
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.scene_warning import SceneWarning
 from scene2hap.scene.shapes import Box, DominantSurface, TriMesh
 from scene2hap.scene.snapshot import SceneSnapshot
 from scenes import box, scene

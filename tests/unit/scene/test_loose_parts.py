@@ -10,11 +10,11 @@ import pytest
 
 from gltf_builder import CUBE, CUBE_FACES
 from scene2hap import bake, load_scene
+from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.grouping.groups import group_objects
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
-from scene2hap.scene.scene_warning import SceneWarning
 from scene2hap.scene.tree import AuthoredNode, Piece
 
 N = len(CUBE_FACES)

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from scipy.spatial.transform import Rotation
 
+from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import SceneError
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.scene_warning import SceneWarning
 
 coordinates = st.floats(-100, 100)
 directions = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: math.hypot(*q) > 1e-3)

@@ -12,7 +12,7 @@ import soundfile
 
 from scene2hap import load_scene
 from scene2hap.audio import files
-from scene2hap.audio.conversion.stream import convert
+from scene2hap.audio.conversion import convert
 from scene2hap.audio.files import read_clip
 from scene2hap.errors import AudioError, SceneError
 from scene2hap.scene import limits

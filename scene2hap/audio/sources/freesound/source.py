@@ -19,10 +19,10 @@ from scene2hap.common import checks
 from scene2hap.common.calls import not_pickled
 from scene2hap.common.secret import Secret
 from scene2hap.common.settings import cache_folder
+from scene2hap.common.warning import warn_of
 from scene2hap.common.web import checked_base
 from scene2hap.errors import AudioError, BackendUnavailable, ConfigError
 from scene2hap.haptics import VibrationDescription
-from scene2hap.scene.scene_warning import warn_of
 
 if TYPE_CHECKING:
     from scene2hap.common.web import Transport

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.audio.clip import AudioClip, Credit
+from scene2hap.audio.files import SUFFIXES
 from scene2hap.audio.select import MIN_DURATION_S
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES, how_many
 from scene2hap.audio.sources.disk_cache import MAX_CLIP_S, Store, digest, plain_line
@@ -21,10 +22,10 @@ from scene2hap.audio.sources.text_to_audio.process import Allowance, CannotStart
 from scene2hap.common import checks
 from scene2hap.common.calls import not_pickled
 from scene2hap.common.settings import cache_folder
+from scene2hap.common.warning import warn_of
 from scene2hap.common.web import is_safe
 from scene2hap.errors import AudioError, BackendError, BadAnswer, ConfigError
 from scene2hap.haptics import VibrationDescription
-from scene2hap.scene.scene_warning import warn_of
 
 RUNNERS = ("audiogen", "stable_audio")
 
@@ -32,7 +33,6 @@ _RUNNER_FOLDER = Path(__file__).parents[1] / "runners"
 _PATIENCE = 2
 """Failures in a row after which the program is not started again."""
 _MAX_FILE_BYTES = 100_000_000
-_SUFFIXES = (".wav", ".flac", ".ogg", ".mp3")
 _ENTRY = "takes.json"
 _ORIGIN = "text_to_audio"
 
@@ -135,7 +135,7 @@ class TextToAudio:
         clips: list[AudioClip] = []
         names: list[str] = []
         for index, name in enumerate(reply.files[: request.count]):
-            suffix = Path(name).suffix if Path(name).suffix in _SUFFIXES else ".wav"
+            suffix = Path(name).suffix if Path(name).suffix in SUFFIXES else ".wav"
             try:
                 content = read_file(folder, name, _MAX_FILE_BYTES)
                 clips.append(self._store.keep_clip(f"{key}/{index}{suffix}", content, _credit(request, reply, index)))

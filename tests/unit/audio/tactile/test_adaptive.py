@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from amplitudes import amplitude
+from scene2hap.audio.anchor import TrackedAnchor
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.adaptive import Adaptive, clear_of
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
-from scene2hap.audio.tracked_anchor import TrackedAnchor
 from scene2hap.errors import AudioError, ConfigError
 from scene2hap.haptics import ActuatorProfile
 

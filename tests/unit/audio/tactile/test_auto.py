@@ -8,8 +8,8 @@ import pytest
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.haptic_loop import Sensation
-from scene2hap.audio.heard import heard_sections
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.spectra.heard import heard_sections
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.audio.tactile.stages import SosStage
 from scene2hap.errors import AudioError

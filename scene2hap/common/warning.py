@@ -1,4 +1,4 @@
-"""The warning of input that is probably a mistake: a scene, or a use of it."""
+"""Warnings that point at the caller's line, and the class of those about input that is probably a mistake."""
 
 from __future__ import annotations
 

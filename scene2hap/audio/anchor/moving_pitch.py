@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.audio.components import Signal, components, magnitudes
+from scene2hap.audio.spectra.components import Signal, components, magnitudes
 
 STRETCH_S = 0.5
 _LEAST_STRETCHES = 4

@@ -16,7 +16,7 @@ from scene2hap import audio
 from scene2hap.audio import files
 from scene2hap.audio.actuators import actuator_profile, response_db
 from scene2hap.audio.clip import Samples
-from scene2hap.audio.conversion import stream as stream_module
+from scene2hap.audio.conversion import reading
 from scene2hap.audio.levels import felt_level_db, sensation_level_db, threshold_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
@@ -66,7 +66,7 @@ def test_stream_converts_each_channel_for_any_block_size(tmp_path: Path, monkeyp
     heard, _ = soundfile.read(source, dtype="float32")
     whole = [SvfBandpass().stream(RATE, ConversionContext()).process(heard[:, i].copy()) for i in range(2)]
     for block in (65_536, 999):
-        monkeypatch.setattr(stream_module, "BLOCK_FRAMES", block)
+        monkeypatch.setattr(reading, "BLOCK_FRAMES", block)
         made = audio.convert(source, tmp_path / f"{block}.wav", converter="svf_bandpass", raw=True)
         felt, rate = soundfile.read(made.output, dtype="float32")
         assert rate == RATE
@@ -375,7 +375,7 @@ def test_conversion_compensates_the_actuator_response(tmp_path: Path) -> None:
 def test_equalized_output_does_not_depend_on_block_size(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     made = {}
     for block in (65_536, 777):
-        monkeypatch.setattr(stream_module, "BLOCK_FRAMES", block)
+        monkeypatch.setattr(reading, "BLOCK_FRAMES", block)
         made[block], _ = felt_of(tmp_path, sound(9.0), f"{block}.wav", actuator="lra", converter=Held(held=500))
     np.testing.assert_allclose(made[777], made[65_536], atol=2**-22)
 

@@ -1,4 +1,4 @@
-"""Tracking of the anchor of a live stream (the component by which it is felt, see `anchor`) while it plays."""
+"""Tracking of the anchor of a live stream (the component by which it is felt, see `whole_sound`) while it plays."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.audio.anchor import FAINTEST_DB, HIGHEST_PEAK_DB, RANGE_HZ, rendered_hz
-from scene2hap.audio.components import magnitudes, peaks
+from scene2hap.audio.anchor.whole_sound import FAINTEST_DB, HIGHEST_PEAK_DB, RANGE_HZ, rendered_hz
 from scene2hap.audio.levels import drive_db
+from scene2hap.audio.spectra.components import magnitudes, peaks
 from scene2hap.audio.threshold import NOTICED_DB
 from scene2hap.haptics import ActuatorProfile
 

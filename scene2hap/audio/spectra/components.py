@@ -8,7 +8,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from scene2hap.audio.windows import hann
+from scene2hap.audio.spectra.windows import hann
 
 Signal = NDArray[np.float64]
 

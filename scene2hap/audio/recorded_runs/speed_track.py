@@ -17,8 +17,8 @@ import scipy
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from scene2hap.audio.components import components, magnitudes
-from scene2hap.audio.windows import hann
+from scene2hap.audio.spectra.components import components, magnitudes
+from scene2hap.audio.spectra.windows import hann
 
 Signal = NDArray[np.float64]
 

@@ -19,9 +19,9 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from scene2hap.audio.speed_track import SpeedTrack
+from scene2hap.audio.recorded_runs.speed_track import SpeedTrack
+from scene2hap.audio.spectra.windows import hann
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ
-from scene2hap.audio.windows import hann
 
 Signal = NDArray[np.float64]
 

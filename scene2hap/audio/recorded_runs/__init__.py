@@ -11,9 +11,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from scene2hap.audio.recorded_runs.level_rise import (
+    BIN_S,
+    MIN_STEADY_S,
+    Rise,
+    Signal,
+    Steady,
+    felt_power,
+    find_rise,
+    steady_part,
+)
+from scene2hap.audio.recorded_runs.speed_track import track_speed
 from scene2hap.audio.run_curve import RunCurve
-from scene2hap.audio.run_level import BIN_S, MIN_STEADY_S, Rise, Signal, Steady, felt_power, find_rise, steady_part
-from scene2hap.audio.speed_track import track_speed
 from scene2hap.common import checks
 from scene2hap.errors import AudioError
 

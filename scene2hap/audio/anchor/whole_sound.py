@@ -32,12 +32,12 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.audio.actuators import MAX_BOOST_DB, response_db
+from scene2hap.audio.anchor.moving_pitch import MovingPitch, growth_db, moving_pitch
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.components import LINE_DB, Component, Signal, components, magnitudes, strongest_bands_hz
-from scene2hap.audio.heard import heard
 from scene2hap.audio.levels import drive_db, felt_level_of_spectrum_db
-from scene2hap.audio.moving_pitch import MovingPitch, growth_db, moving_pitch
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.spectra.components import LINE_DB, Component, Signal, components, magnitudes, strongest_bands_hz
+from scene2hap.audio.spectra.heard import heard
 from scene2hap.audio.threshold import NOTICED_DB, TACTILE_RANGE_HZ, threshold_db
 from scene2hap.haptics import ActuatorProfile
 

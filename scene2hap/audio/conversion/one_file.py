@@ -1,0 +1,214 @@
+"""Conversion of one sound file, block by block, so that memory does not grow with its length.
+
+The converter gets the sound without its offset. Its output is equalized for the actuator and scaled to the level of the
+source, as the loops of a scene are (`felt_loop`). The level is known at the end only, so the vibration is stored in a
+temporary file until then.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryFile
+
+import numpy as np
+
+from scene2hap.audio.actuators import actuator_profile
+from scene2hap.audio.anchor import anchor_of
+from scene2hap.audio.clip import Samples
+from scene2hap.audio.conversion.levelling import levelled
+from scene2hap.audio.conversion.meter import Block, Meter
+from scene2hap.audio.conversion.reading import SoundReader
+from scene2hap.audio.conversion.writing import FORMATS, check_target, opened_for_writing, write_blocks
+from scene2hap.audio.files import Mixdown, opened_sound, written_whole
+from scene2hap.audio.haptic_loop import LevelWarning, Sensation, level_doubt
+from scene2hap.audio.levels import sensation_level_db
+from scene2hap.audio.protocol import (
+    ConversionContext,
+    TactileConverter,
+    TactileStream,
+    follows_anchor,
+    one_channel,
+    opened_stream,
+    require_in_step,
+)
+from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
+from scene2hap.common import checks
+from scene2hap.common.warning import warn_of
+from scene2hap.errors import AudioError, ConfigError
+
+_PICTURE_COLUMNS = 900
+
+
+@dataclass(frozen=True)
+class Conversion:
+    """Result of converting a file. Peaks are absolute samples [re full scale], before clipping.
+
+    `n_clipped` samples were beyond full scale and were written as full scale. `level_db` is the sensation level of the
+    vibration [dB]; the head-room may keep it below `asked_level_db`. It is None for silence, for `raw`, and if sound or
+    vibration are only the noise of a recording (`levels.is_noise`), which is not amplified. Dominant frequencies are
+    those of the mean power spectrum of all channels, 10 Hz to 20 kHz; None for silence. `picture` is None if none was
+    drawn.
+    """
+
+    source: Path
+    output: Path
+    duration_s: float
+    sample_rate_hz: int
+    channels: int
+    peak_in: float
+    peak_out: float
+    n_clipped: int
+    frequency_in_hz: float | None
+    frequency_out_hz: float | None
+    elapsed_s: float
+    picture: Path | None = None
+    level_db: float | None = None
+    asked_level_db: float | None = None
+
+    @property
+    def level_doubt(self) -> str:
+        """The sentence that says by how much the planned level is missed; empty within `NOTICED_DB`."""
+        if self.level_db is None:
+            return ""
+        return level_doubt(str(self.output), self.level_db, self.asked_level_db or 0.0)
+
+
+def convert(
+    source: str | Path,
+    output: str | Path,
+    *,
+    converter: object = DEFAULT_CONVERTER,
+    actuator: object = "flat",
+    intensity: float = 1.0,
+    mono: bool = False,
+    overwrite: bool = False,
+    picture: str | Path | None = None,
+    raw: bool = False,
+) -> Conversion:
+    """Convert a sound file to a tactile one of the same length and rate; written whole or not at all.
+
+    Parameters:
+    source : WAV, FLAC, Ogg, MP3, AIFF, AU, CAF or Opus of any length; silence packed into few bytes is refused.
+    output : its suffix (`FORMATS`) chooses the format.
+    converter : a kind, a mapping with a `kind` and its settings, or an instance; each channel gets its own stream.
+    actuator : a profile, its name, or a CSV file of its response, which is compensated; intensity : of the source, 0..1
+    [-], which sets the sensation level (`sensation_level_db`).
+    mono : mix the channels by their mean first, or take the strongest if they cancel each other; overwrite : replace
+    files that exist.
+    picture : a PNG to draw: spectrograms before and after, and both envelopes; raw : apply the converter alone, without
+    removal of the offset, equalization and scaling.
+    Warns: LevelWarning: the planned level is missed by more than `NOTICED_DB`.
+    Raises: ConfigError: settings that cannot work. AudioError: `source` cannot be read or holds a sample that is not
+    finite, `output` exists or cannot be written, or the converter changes the length.
+    """
+    begin = time.perf_counter()
+    source, output = Path(source), Path(output)
+    built, context = settled(converter, actuator, intensity)
+    drawn = Path(picture) if picture is not None else None
+    check_target(source, output, FORMATS, overwrite=overwrite)
+    if drawn is not None:
+        check_target(source, drawn, [".png"], overwrite=overwrite)
+    n_columns = _PICTURE_COLUMNS if drawn else 0
+    with opened_sound(source) as file, written_whole(output) as beside:
+        sound = SoundReader(source, file, mono=mono, n_columns=n_columns)
+        if not raw and getattr(built, "follows_target", False):
+            context = _with_own_frequency(sound, context)
+        try:
+            streams = [opened_stream(built, sound.rate, context) for _ in range(sound.channels)]
+        except ConfigError as cause:  # a sample rate that no converter takes
+            raise ConfigError(f"{source}: {cause}") from cause
+        before = sound.meter
+        after = Meter(sound.rate, sound.channels, n_frames=before.n_expected, n_columns=n_columns)
+        blocks = _converted(sound.blocks() if raw else sound.blocks_without_offset(), built, streams)
+        level_db, asked_db = None, None if raw else sensation_level_db(context.intensity)
+        with (
+            opened_for_writing(output, beside, sound.rate, sound.channels, before.n_expected) as target,
+            ExitStack() as held,
+        ):
+            if not raw:
+                temporary = held.enter_context(TemporaryFile(dir=output.parent))
+                is_chosen = follows_anchor(built, context)
+                blocks, level_db = levelled(blocks, sound, context, temporary, is_chosen=is_chosen)
+            n_clipped = write_blocks(target, blocks, after, output, beside)
+        if drawn is not None:
+            from scene2hap.audio.conversion.picture import draw_conversion
+
+            with written_whole(drawn) as picture_beside:
+                title = f"{source.name} through {type(built).__name__}"
+                sensation = _sensation(level_db, asked_db, context)
+                draw_conversion(title, source, beside, (before, after), context.actuator, picture_beside, sensation)
+    made = Conversion(
+        source,
+        output,
+        before.n_frames / sound.rate,
+        sound.rate,
+        sound.channels,
+        before.peak,
+        after.peak,
+        n_clipped + sum(getattr(stream, "n_clipped", 0) for stream in streams),
+        before.dominant_frequency_hz(),
+        after.dominant_frequency_hz(),
+        time.perf_counter() - begin,
+        drawn,
+        level_db,
+        asked_db,
+    )
+    if made.level_doubt:
+        warn_of(made.level_doubt, LevelWarning)
+    return made
+
+
+def settled(converter: object, actuator: object, intensity: float) -> tuple[TactileConverter, ConversionContext]:
+    """Return the converter and its context. Raises: ConfigError: settings that cannot work."""
+    built = CONVERTERS.build(converter)
+    if not isinstance(built, TactileConverter):
+        raise ConfigError(f"converter is {built!r}; it has no stream. Name a kind: {', '.join(CONVERTERS.kinds())}.")
+    checks.number("intensity", intensity, "-", above=0.0, at_most=1.0, error=ConfigError)
+    return built, ConversionContext(actuator_profile(actuator), intensity)
+
+
+def _with_own_frequency(sound: SoundReader, context: ConversionContext) -> ConversionContext:
+    """Return the context with the source's own frequency, found in the middle of the file; unchanged if none is found,
+    so that the converter tracks the frequency."""
+    channels, mixdown = sound.middle(), Mixdown()
+    heard, strongest = mixdown.mean(channels), mixdown.strongest
+    if strongest is not None:
+        heard = channels[:, strongest].astype(np.float64)
+    if len(heard) < 2 or not np.isfinite(heard).all():  # the conversion raises an error for this
+        return context
+    anchor = anchor_of(heard, sound.rate, sensation_level_db(context.intensity), context.actuator)
+    return context if anchor is None else anchor.within(context, anchor.carrier_hz)
+
+
+def _converted(
+    blocks: Iterator[Block], converter: TactileConverter, streams: Sequence[TactileStream]
+) -> Iterator[Block]:
+    """Yield the output of the converter in blocks (n, channels); each channel has its own stream."""
+    n_given = n_made = 0
+    for block in blocks:
+        n_given += len(block)
+        felt = _stacked(converter, [stream.process(x) for stream, x in zip(streams, block.T, strict=True)])
+        n_made += len(felt)
+        yield felt
+    rest = _stacked(converter, [stream.finish() for stream in streams])
+    yield rest
+    require_in_step(converter, n_made + len(rest), n_given)
+
+
+def _stacked(converter: TactileConverter, channels: list[Samples]) -> Block:
+    channels = [one_channel(converter, channel) for channel in channels]
+    lengths = [*map(len, channels)]
+    if len(set(lengths)) > 1:
+        raise AudioError(f"{type(converter).__name__} made {lengths} samples of equal channels.")
+    return np.stack(channels, axis=1).astype(np.float32, copy=False)
+
+
+def _sensation(level_db: float | None, asked_db: float | None, context: ConversionContext) -> Sensation | None:
+    """Return how the vibration is felt, None if it was not scaled to a level."""
+    if level_db is None or asked_db is None:
+        return None
+    return Sensation(level_db, asked_db, context.own_hz, context.target_hz or context.own_hz, context.rough_hz)

@@ -1,0 +1,98 @@
+"""A sound file that is read block by block: its channels or their mix, measured on the way."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import soundfile
+from numpy.typing import NDArray
+
+from scene2hap.audio.conversion.meter import Block, Meter
+from scene2hap.audio.files import MAX_SAMPLE, Mixdown, require_finite
+from scene2hap.audio.tactile.sections import through_sections
+from scene2hap.errors import AudioError
+
+BLOCK_FRAMES = 65_536
+_OFFSET_FRAMES = 65_536
+_MIDDLE_S = 10.0
+"""Length of the part of a file that is analysed before the conversion [s]."""
+_SLOWEST_HZ = 1.0
+"""Cut-off below which a component counts as offset; its removal costs 0.04 dB at 10 Hz, where touch begins."""
+
+
+class SoundReader:
+    """Reads an open sound file, of which `meter` measures each block.
+
+    Parameters:
+    mono : mix the channels by their mean, or take the strongest if they cancel each other in the middle of the file.
+    n_columns : points of the meter's envelope.
+    """
+
+    def __init__(self, source: Path, file: soundfile.SoundFile, *, mono: bool, n_columns: int) -> None:
+        self.rate = int(file.samplerate)
+        self.channels = 1 if mono else int(file.channels)
+        self.meter = Meter(self.rate, self.channels, n_frames=int(file.frames), n_columns=n_columns)
+        self._source, self._file, self._mono = source, file, mono
+        self._strongest: int | None = None
+        if mono:
+            mixdown = Mixdown()
+            mixdown.mean(self.middle())
+            self._strongest = mixdown.strongest
+
+    def middle(self) -> Block:
+        """Return all channels of the middle of the file (n, n_channels), at most `_MIDDLE_S`."""
+        n = round(_MIDDLE_S * self.rate)
+        self._file.seek(max(0, int(self._file.frames) - n) // 2)
+        channels: Block = self._file.read(n, dtype="float32", always_2d=True)
+        self._file.seek(0)
+        return channels
+
+    def blocks(self) -> Iterator[Block]:
+        """Yield the whole file in blocks (n, channels).
+
+        Raises: AudioError: it has no samples, a sample that is not finite, or fewer samples than its header states.
+        """
+        stated, n_read = int(self._file.frames), 0
+        while len(block := self._file.read(BLOCK_FRAMES, dtype="float32", always_2d=True)):
+            with np.errstate(over="ignore"):  # of samples that are refused below
+                block = self._mixed(block)
+                self.meter.hear(block)
+            if not self.meter.peak <= MAX_SAMPLE:
+                require_finite(self._source, block, n_read)
+            n_read += len(block)
+            yield block
+        if n_read == 0:
+            raise AudioError(f"{self._source} has no samples. Use a sound that is longer than 0 s.")
+        if n_read < stated and self._file.format != "MP3":  # the length of an MP3 is an estimate
+            raise AudioError(f"{self._source} is cut short: {n_read} of {stated} frames. Copy it again.")
+
+    def blocks_without_offset(self) -> Iterator[Block]:
+        """Yield `blocks` through a high-pass that starts at the offset of the file's beginning."""
+        share = 1.0 / (1.0 + 2.0 * math.pi * _SLOWEST_HZ / self.rate)
+        section = np.array([[share, -share, 0.0, 1.0, -share, 0.0]])
+        state = np.zeros((1, self.channels, 2))
+        state[0, :, 0] = -share * self._first_offsets()
+        for block in self.blocks():
+            rows = np.ascontiguousarray(block.T, dtype=np.float64)
+            yield through_sections(section, rows, state).T.astype(np.float32)
+
+    def _first_offsets(self) -> NDArray[np.float64]:
+        """Return the offset of each channel at the beginning of the file."""
+        head = self._file.read(_OFFSET_FRAMES, dtype="float32", always_2d=True)
+        self._file.seek(0)
+        if not len(head) or not np.isfinite(head).all():  # the conversion raises an error for this
+            return np.zeros(self.channels)
+        offsets: NDArray[np.float64] = self._mixed(head).mean(axis=0, dtype=np.float64)
+        return offsets
+
+    def _mixed(self, block: Block) -> Block:
+        """Return the channels, or in mono their mean or the one that stands for all, as (n, 1)."""
+        if not self._mono or block.shape[1] == 1:
+            return block
+        if self._strongest is not None:
+            return np.ascontiguousarray(block[:, self._strongest, None])
+        mean: Block = block.mean(axis=1, keepdims=True, dtype=np.float32)
+        return mean

@@ -1,0 +1,155 @@
+"""A person's overrides in a bake: before inference, they rename objects; after it, they replace inferred values."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from scene2hap.baking.config import BakeConfig
+from scene2hap.baking.sound import Progress, no_progress
+from scene2hap.bundle import BundleWarning, HapticBundle, Override
+from scene2hap.common import checks
+from scene2hap.common.warning import warn_of
+from scene2hap.errors import ConfigError
+from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
+from scene2hap.llm.chain import Inference, infer_scene
+from scene2hap.llm.protocol import LLMBackend
+from scene2hap.llm.questions import Slots
+from scene2hap.llm.wrappers import reports
+from scene2hap.scene.snapshot import SceneSnapshot
+
+_VIBRATES = "This object vibrates by itself: tell in which states."
+"""Prompt for an object that a person wants to vibrate."""
+
+_ASSUMED_INTENSITY = 0.3
+"""Intensity of a state that a person requests and no model describes."""
+
+
+def overrides_of_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) -> dict[str, Override]:
+    """Return the overrides of the objects of a scene.
+
+    Raises: ConfigError: they are no overrides. Warns: BundleWarning: one of an absent object is dropped.
+    """
+    is_mapping = isinstance(overrides, Mapping)
+    wrong = [one for one in overrides.values() if not isinstance(one, Override)] if is_mapping else [overrides]
+    if wrong:
+        raise ConfigError(
+            f"overrides is or has {checks.described(wrong[0])}; it must be a mapping of ids to Override, as "
+            "`bundle.overrides` is."
+        )
+    known = {item.id for item in scene.objects}
+    for object_id, override in overrides.items():
+        if object_id not in known and override.corrections():
+            near = checks.did_you_mean(object_id, sorted(known - overrides.keys()))
+            warn_of(
+                f"the override of {object_id!r} is dropped: the scene has no such object any more. Dropped are its "
+                f"{', '.join(override.corrections())}. {near}".rstrip(),
+                BundleWarning,
+            )
+    return {key: override for key, override in overrides.items() if key in known}
+
+
+def bundle_with_locked(folder: Path, overrides: Mapping[str, Override]) -> HapticBundle | None:
+    """Return the bundle in a folder if a person has locked loops in it, None otherwise. Raises: BundleError."""
+    return HapticBundle.load(folder) if any(override.locked for override in overrides.values()) else None
+
+
+async def infer_corrected(
+    scene: SceneSnapshot,
+    backend: LLMBackend,
+    config: BakeConfig,
+    overrides: Mapping[str, Override],
+    *,
+    user_prompt: str = "",
+    progress: Progress | None = None,
+    only: Collection[str] | None = None,
+    scene_category: str | None = None,
+    slots: Slots | None = None,
+) -> Inference:
+    """Infer a scene with the names and vibration of the overrides. See `infer_scene`.
+
+    Warns: BundleWarning: a name that a person gave is unknown.
+    """
+    tell = progress or no_progress
+    names = {key: override.name for key, override in overrides.items() if override.name is not None}
+    if names:
+        renamed = (replace(item, name=names.get(item.id, item.name)) for item in scene.objects)
+        scene = replace(scene, objects=tuple(renamed))
+    inference = await infer_scene(
+        scene,
+        backend,
+        user_prompt=user_prompt,
+        config=config,
+        progress=lambda what, done, total: tell("inference", what + _cache_hits(backend), done, total),
+        only=only,
+        scene_category=scene_category,
+        object_prompts={key: _VIBRATES for key, override in overrides.items() if override.vibrates},
+        slots=slots,
+    )
+    objects = {
+        key: _note_name(key, haptics, names[key]) if key in names else haptics
+        for key, haptics in inference.objects.items()
+    }
+    return replace(inference, objects=objects)
+
+
+def _note_name(object_id: str, haptics: ObjectHaptics, name: str) -> ObjectHaptics:
+    """Note the name that a person gave an object, by which it was inferred. Warns: BundleWarning: it is unknown."""
+    if is_unknown(haptics.object_category):
+        warn_of(
+            f"nothing is known of {checks.shown(name)}, the name that a person gave {object_id!r}; no material and no "
+            "vibration are inferred. Use a common noun, as 'washing machine', or infer it by a model (llm).",
+            BundleWarning,
+        )
+    return replace(haptics, reasons={**haptics.reasons, "name": _reason_of_name(name)})
+
+
+def _reason_of_name(name: str) -> str:
+    return f"a person calls it {name!r}."
+
+
+def renamed_objects(bundle: HapticBundle) -> list[str]:
+    """Return the ids of objects whose name a person gave or removed after they were inferred."""
+    names = {key: override.name for key, override in bundle.overrides.items()}
+    reasons = {key: None if name is None else _reason_of_name(name) for key, name in names.items()}
+    return [key for key, haptics in bundle.objects.items() if haptics.reasons.get("name") != reasons.get(key)]
+
+
+def objects_without_states(bundle: HapticBundle) -> list[str]:
+    """Return the ids of objects that a person wants to vibrate, and that do not yet."""
+    return [key for key, one in bundle.overrides.items() if one.vibrates and not bundle.objects[key].vibrates]
+
+
+def replace_vibration(before: ObjectHaptics, inferred: ObjectHaptics) -> ObjectHaptics:
+    """Return an object with the vibration of another answer. The rest stays: a bundle has no pictures, from which the
+    material may have been inferred, and a person may have edited it."""
+    by = {name: who for name, who in inferred.provenance.items() if name == "vibrates" or name.startswith("states.")}
+    why = {name: reason for name, reason in inferred.reasons.items() if name == "vibration"}
+    return replace(
+        before,
+        vibrates=inferred.vibrates,
+        states=inferred.states,
+        provenance={**before.provenance, **by},
+        reasons={**before.reasons, **why},
+    )
+
+
+def apply_overrides(
+    objects: Mapping[str, ObjectHaptics], overrides: Mapping[str, Override]
+) -> dict[str, ObjectHaptics]:
+    """Return the objects with a person's corrections. An object made to vibrate gets at least one state."""
+    return {key: _apply(overrides[key], haptics) if key in overrides else haptics for key, haptics in objects.items()}
+
+
+def _apply(override: Override, haptics: ObjectHaptics) -> ObjectHaptics:
+    if override.vibrates and not haptics.states:
+        words = haptics.object_category
+        on = SourceState("on", _ASSUMED_INTENSITY, f"{words} running", f"{words} humming")
+        haptics = replace(haptics, vibrates=True, states=(on,))
+    return override.applied(haptics)
+
+
+def _cache_hits(backend: object) -> str:
+    kept = reports(backend).get("CacheBackend", {}).get("hits")
+    return f" ({kept} answers kept)" if kept else ""
