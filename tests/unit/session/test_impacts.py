@@ -310,8 +310,9 @@ def test_harder_strikes_are_felt_more_within_full_scale(actuator: str) -> None:
         made.update(touches=touches())
         felt.append(made.strike("table", STRUCK, with_object="cup", speed_m_s=speed).felt["left"])
     assert felt[0] < felt[1] < felt[2] <= PEAK
-    assert felt[3] == pytest.approx(felt[2], rel=1e-6)
-    assert 20 * math.log10(felt[1] / felt[0]) == pytest.approx(10.0, abs=0.1)  # 2:1
+    assert felt[3] == pytest.approx(felt[2], rel=0.01)
+    # 2:1 of the acceleration, which grows by the speed and, as the contact gets shorter, by up to speed^0.4 more.
+    assert 10.0 <= 20 * math.log10(felt[1] / felt[0]) <= 14.0
 
 
 @pytest.mark.parametrize("band_hz", [(10.0, 60.0), (40.0, 800.0), (130.0, 230.0), (700.0, 1000.0), (2.0, 20.0)])
