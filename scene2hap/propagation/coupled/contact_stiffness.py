@@ -69,14 +69,19 @@ class ContactLaw:
         that of the law.
         """
         load_n = self.preload_n if preload_n is None else preload_n
-        modulus = 1 / sum(
-            (1 - m.poisson_ratio**2) / (m.youngs_modulus_pa * complex(1, m.loss_factor))
-            for m in (a or HARD_PLASTIC, b or HARD_PLASTIC)
-        )
+        modulus = contact_modulus_pa(a, b)
         radius_m = (0.75 * load_n * self.tip_radius_m / abs(modulus)) ** (1 / 3)
         if area_m2:
             radius_m = min(radius_m, math.sqrt(area_m2 / math.pi))
         return 2 * modulus.real * radius_m, max(modulus.imag / modulus.real, self.loss_floor)
+
+
+def contact_modulus_pa(a: Material | None, b: Material | None) -> complex:
+    """Return E* of two materials, each None if unknown [Pa]; its imaginary part is the loss."""
+    return 1 / sum(
+        (1 - m.poisson_ratio**2) / (m.youngs_modulus_pa * complex(1, m.loss_factor))
+        for m in (a or HARD_PLASTIC, b or HARD_PLASTIC)
+    )
 
 
 def checked_law(contact: ContactLaw | Mapping[str, Any]) -> ContactLaw:

@@ -18,8 +18,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from scene2hap.audio.actuators import inverse_db, is_flat
-from scene2hap.audio.levels import TACTILE_HEADROOM_DB
+from scene2hap.audio.actuators import is_flat
+from scene2hap.audio.levels import TACTILE_HEADROOM_DB, drive_db, nearest_felt_hz
+from scene2hap.audio.threshold import NOTICED_DB, TACTILE_RANGE_HZ, threshold_db
 from scene2hap.common.calls import clear_attributes
 from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.live import PointField, TouchedPoint
@@ -65,9 +66,9 @@ class Impact:
 
     Parameters: object_id : the struck object; point_m : the struck point [m], world; with_object : the striking object,
     None if unknown; speed_m_s : at which they met, None if an impulse was given; frequency_hz : of the strongest
-    component; at_sample : its time on the clock of `render`; felt : the largest sample that the impact adds at each
-    hand [-], without hands that feel nothing. If a worker prepares the gains, a later `update` or `wait_prepared` fills
-    in `felt`.
+    component, also if the actuator plays it at another; at_sample : its time on the clock of `render`; felt : the
+    largest sample that the impact adds at each hand [-], without hands that feel nothing. If a worker prepares the
+    gains, a later `update` or `wait_prepared` fills in `felt`.
     """
 
     object_id: str
@@ -196,14 +197,13 @@ class Impacts:
             # Most impacts of a busy scene are too far from every hand.
             if not len(gains) or gains.max() * PEAK < LEAST_GAIN:
                 return {}
-            waves = self._waves(burst)
-            weights = self._levels(burst, waves, [*among], profile) * self._capped(gains)
+            waves, levels = self._levels(burst, [*among], profile)
+            weights = levels * self._capped(gains)
             felt = {hand: row for hand, row in zip(among, weights, strict=True) if row.max() >= LEAST_GAIN}
             by_output = {outputs[hand]: row.tolist() for hand, row in felt.items()}
             if not felt or not self._playback.start_burst(waves, by_output, begin):
                 return {}
-            rate_hz = self._config.sample_rate_hz
-            return {hand: peak_of(waves, row, burst.decays_s, rate_hz) for hand, row in felt.items()}
+            return {hand: self._peak(waves, row, burst.decays_s) for hand, row in felt.items()}
 
         live = self._live()
         if live is not None:
@@ -259,25 +259,35 @@ class Impacts:
             else:
                 self._record(impact, felt)
 
-    def _levels(self, burst: Burst, waves: list[Samples], hands: list[str], profile: UserProfile | None) -> Floats:
-        """Amplitude (n_hands, n) [-] of each sine at each of these hands, as if it touched the struck point."""
-        actuator, f = self._config.actuator, burst.frequencies_hz
-        accelerations = burst.accelerations_m_s2
-        peak = peak_of(waves, accelerations, burst.decays_s, self._config.sample_rate_hz)
-        strength = min(1.0, math.sqrt(accelerations.sum() / LOUDEST_M_S2)) * self._user_factor()
-        drives = accelerations / peak * PEAK * strength
-        drives[(f < actuator.min_frequency_hz) | (f > actuator.max_frequency_hz)] = 0.0
-        if not is_flat(actuator):
-            boost = 10 ** (inverse_db(actuator, f) / 20)
-            drives *= boost / boost.max()
-        if profile is None or profile.is_neutral:
-            return drives[None].repeat(len(hands), axis=0)
-        return drives * [10 ** (profile.level_db(hand, actuator.name, f) / 20) for hand in hands]
+    def _levels(self, burst: Burst, hands: list[str], profile: UserProfile | None) -> tuple[list[Samples], Floats]:
+        """Wave of each sine, and its amplitude (n_hands, n) [-] at each of these hands if it touched the struck point.
 
-    def _waves(self, burst: Burst) -> list[Samples]:
+        A sine is felt as strongly as on a flat actuator, or as strongly as the actuator can.
+        """
+        actuator, f, decays_s = self._config.actuator, burst.frequencies_hz, burst.decays_s
+        accelerations, waves = burst.accelerations_m_s2, self._waves(f, decays_s)
+        drives = accelerations / self._peak(waves, accelerations, decays_s) * PEAK
+        felt_db = 20 * np.log10(drives) - threshold_db(f)
+        played_hz = nearest_felt_hz(f, felt_db, actuator, -TACTILE_HEADROOM_DB, NOTICED_DB)
+        if played_hz is not f or not is_flat(actuator):
+            waves = self._waves(played_hz, decays_s)
+            drives = 10 ** (drive_db(played_hz, felt_db, actuator) / 20)
+            drives *= min(1.0, PEAK / self._peak(waves, drives, decays_s))
+        # Too slow to be felt as vibration, wherever it is played.
+        drives[f < TACTILE_RANGE_HZ[0]] = 0.0
+        # Applied last, so that an actuator's bounds take the same from strong and weak impacts.
+        drives *= min(1.0, math.sqrt(accelerations.sum() / LOUDEST_M_S2)) * self._user_factor()
+        if profile is None or profile.is_neutral:
+            return waves, drives[None].repeat(len(hands), axis=0)
+        return waves, drives * [10 ** (profile.level_db(hand, actuator.name, played_hz) / 20) for hand in hands]
+
+    def _waves(self, frequencies_hz: Floats, decays_s: Floats) -> list[Samples]:
         rate_hz = self._config.sample_rate_hz
-        components = zip(burst.frequencies_hz.tolist(), burst.decays_s.tolist(), strict=True)
+        components = zip(frequencies_hz.tolist(), decays_s.tolist(), strict=True)
         return [wave_of(f, decay, rate_hz) for f, decay in components]
+
+    def _peak(self, waves: list[Samples], weights: Floats, decays_s: Floats) -> float:
+        return peak_of(waves, weights, decays_s, self._config.sample_rate_hz)
 
     def _is_admitted(self, strike: Strike, felt: Felt, at_frame: int) -> bool:
         """Whether an impact may be felt. If so, it is recorded as the last impact of its pair."""

@@ -27,15 +27,18 @@ from scene2hap import (
     UserProfile,
     bake,
 )
+from scene2hap.audio.actuators import response_db
+from scene2hap.audio.threshold import threshold_db
 from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.propagation.coupled import impact_solution
 from scene2hap.propagation.coupled.hand import PALM
-from scene2hap.propagation.impact import burst_of
+from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.plate import Plate
 from scene2hap.render.bursts import wave_of
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.impacts import felt_impacts
 from scene2hap.session.impacts.felt_impacts import LEAST_INTERVAL_S, MOST_PLAYING, PEAK, Impact, struck_later
+from scene2hap.session.impacts.gains import Floats
 from scenes import table_with_two_phones
 
 RATE = 48_000
@@ -299,24 +302,77 @@ def test_rendered_peak_of_a_burst_equals_the_reported_level() -> None:
     assert 10 * math.log10(power[above].sum() / power.sum()) < -60.0
 
 
-def test_harder_strikes_are_felt_more_within_full_scale() -> None:
+@pytest.mark.parametrize("actuator", ["flat", "lra"])
+def test_harder_strikes_are_felt_more_within_full_scale(actuator: str) -> None:
     felt = []
     for speed in (0.01, 0.1, 10.0, 1e4):
-        made = session()
+        made = session(actuator=actuator)
         made.update(touches=touches())
         felt.append(made.strike("table", STRUCK, with_object="cup", speed_m_s=speed).felt["left"])
     assert felt[0] < felt[1] < felt[2] <= PEAK
-    assert felt[3] == pytest.approx(felt[2], rel=1e-6)
-    assert 20 * math.log10(felt[1] / felt[0]) == pytest.approx(10.0, abs=0.1)  # 2:1
+    assert felt[3] == pytest.approx(felt[2], rel=0.01)
+    # 2:1 of the acceleration, which grows by the speed and, as the contact gets shorter, by up to speed^0.4 more.
+    assert 10.0 <= 20 * math.log10(felt[1] / felt[0]) <= 14.0
 
 
-def test_an_impact_outside_the_actuator_s_band_is_not_felt() -> None:
-    made = session(actuator={"min_frequency_hz": 700.0, "max_frequency_hz": 1000.0})
-    made.update(touches=touches())
-    impact = made.strike("table", STRUCK, with_object="cup", speed_m_s=1.0)
-    assert impact.frequency_hz < 300.0
-    assert impact.felt == {}
-    assert not rendered(made).any()
+@pytest.mark.parametrize("band_hz", [(10.0, 60.0), (40.0, 800.0), (130.0, 230.0), (700.0, 1000.0), (2.0, 20.0)])
+@pytest.mark.parametrize("striker", [None, "cup"])
+def test_impact_is_felt_in_the_band_of_any_actuator(band_hz: tuple[float, float], striker: str | None) -> None:
+    made = session(actuator={"min_frequency_hz": band_hz[0], "max_frequency_hz": band_hz[1]})
+    made.update(touches=touches(STRUCK, STRUCK))
+    impact = made.strike("table", STRUCK, with_object=striker, speed_m_s=1.0)
+    samples = rendered(made)
+    assert impact.felt["left"] > 0.02
+    assert np.abs(samples).max() == pytest.approx(impact.felt["left"])
+    power = np.abs(np.fft.rfft(samples[:, 0], 1 << 17)) ** 2
+    strongest_hz = float(np.fft.rfftfreq(1 << 17, 1 / RATE)[power.argmax()])
+    # A decay of some cycles has a width in frequency.
+    assert 0.8 * band_hz[0] <= strongest_hz <= 1.25 * band_hz[1]
+
+
+def played(made: HapticSession, burst: Burst) -> tuple[Floats, Floats, Floats]:
+    """Frequencies [Hz] at which a session plays a burst, amplitudes there [-], and their sensation levels [dB]."""
+    waves, ((*amplitudes,),) = made._impacts._levels(burst, ["left"], None)
+    spectra = [np.abs(np.fft.rfft(wave, 1 << 17)) for wave in waves]
+    played_hz = np.array([one.argmax() for one in spectra]) * RATE / (1 << 17)
+    drive_db, actuator = 20 * np.log10(amplitudes), made._impacts._config.actuator
+    return played_hz, np.array(amplitudes), drive_db + response_db(actuator, played_hz) - threshold_db(played_hz)
+
+
+def burst_of_one(frequency_hz: float) -> Burst:
+    return Burst(np.array([frequency_hz]), np.array([0.1]), np.array([200.0]))
+
+
+@pytest.mark.parametrize("actuator", ["drake_hf", "voice_coil", "lra"])
+def test_impact_has_the_level_of_a_flat_actuator_where_the_actuator_reaches_it(actuator: str) -> None:
+    resonant, flat = session(actuator=actuator), session()
+    for frequency_hz in (40.0, 60.0, 80.0, 120.0, 175.0, 250.0, 400.0):
+        burst = burst_of_one(frequency_hz)
+        (hz,), (amplitude,), (felt_db,) = played(resonant, burst)
+        (own_hz,), (flat_amplitude,), (expected_db,) = played(flat, burst)
+        assert own_hz == pytest.approx(frequency_hz, rel=0.02)
+        profile = resonant._impacts._config.actuator
+        assert 0.98 * profile.min_frequency_hz <= hz <= 1.02 * profile.max_frequency_hz
+        # It is weaker only if the drive of an impact of its strength is at its bound.
+        assert felt_db <= expected_db + 0.5
+        assert felt_db > expected_db - 0.5 or amplitude == pytest.approx(PEAK * math.sqrt(0.2), rel=1e-3)
+        assert amplitude <= PEAK * math.sqrt(0.2) * 1.001
+        assert felt_db > expected_db - 10.5
+        assert flat_amplitude == pytest.approx(PEAK * math.sqrt(0.2))
+
+
+def test_hard_and_soft_impacts_differ_on_a_resonant_actuator_by_a_jnd_in_frequency() -> None:
+    made = session(actuator="lra")
+    (soft_hz,), (hard_hz,) = (played(made, burst_of_one(hz))[0] for hz in (70.0, 250.0))
+    assert hard_hz > 1.22 * soft_hz
+
+
+def test_impact_of_modes_too_slow_to_be_felt_is_not_played_faster() -> None:
+    made = session(actuator="lra")
+    _, ((slow, fast),) = made._impacts._levels(
+        Burst(np.array([4.0, 150.0]), np.array([0.1, 0.1]), np.array([50.0, 50.0])), ["left"], None
+    )
+    assert slow == 0.0 < fast
 
 
 def test_strike_accepts_a_finger_or_an_impulse() -> None:
@@ -485,9 +541,8 @@ def test_impacts_are_compensated_for_the_actuators_response() -> None:
     boost_db = -np.interp(np.log(burst.frequencies_hz), np.log(edges_hz), levels_db)
     assert np.ptp(boost_db) > 3.0
     strong = found[0] > 1e-3 * found[0].max()
-    np.testing.assert_allclose(
-        20 * np.log10(found[1] / found[0])[strong], (boost_db - boost_db.max())[strong], atol=0.5
-    )
+    raised_db = 20 * np.log10(found[1] / found[0])[strong] - boost_db[strong]
+    assert np.ptp(raised_db) < 0.5  # the peak is the same
 
 
 def held_up(monkeypatch: pytest.MonkeyPatch) -> tuple[HapticSession, Event]:
