@@ -32,9 +32,9 @@ class SoundReader:
     """
 
     def __init__(self, source: Path, file: soundfile.SoundFile, *, mono: bool, n_columns: int) -> None:
-        self.rate = int(file.samplerate)
+        self.rate: int = int(file.samplerate)
         self.channels = 1 if mono else int(file.channels)
-        self.meter = Meter(self.rate, self.channels, n_frames=int(file.frames), n_columns=n_columns)
+        self.meter: Meter = Meter(self.rate, self.channels, n_frames=int(file.frames), n_columns=n_columns)
         self._source, self._file, self._mono = source, file, mono
         self._strongest: int | None = None
         if mono:

@@ -73,7 +73,9 @@ def test_copies_on_the_same_support_are_analysed_once() -> None:
 def test_only_selected_objects_are_inferred_with_user_prompts() -> None:
     backend = Scripted()
     found = asyncio.run(
-        infer_scene(SCENE, backend, only=["phone"], scene_category="office", wishes={"phone": "it rings loudly"})
+        infer_scene(
+            SCENE, backend, only=["phone"], scene_category="office", object_prompts={"phone": "it rings loudly"}
+        )
     )
     assert list(found.objects) == ["phone"]
     assert {request.component for request in backend.asked} == {

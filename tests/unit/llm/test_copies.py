@@ -98,7 +98,7 @@ def test_user_prompt_for_one_copy_is_not_shared() -> None:
     assert set(analysed) == {"chair_1", "chair_3"}
     assert "it is of steel" in analysed["chair_3"]
     backend = Scripted()
-    asyncio.run(infer_scene(room, backend, wishes={"chair_3": "it is of steel", "chair_4": "it is of oak"}))
+    asyncio.run(infer_scene(room, backend, object_prompts={"chair_3": "it is of steel", "chair_4": "it is of oak"}))
     prompts = {r.subject: r.prompt for r in backend.asked if r.component == "object_analyzer"}
     assert set(prompts) == {"chair_1", "chair_3", "chair_4"}
     assert "it is of oak" in prompts["chair_4"]
