@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.warning import warn_of
 from scene2hap.devices import SINKS
 from scene2hap.devices.exclusive_use import claim_sink, give_back_sink
 from scene2hap.devices.protocol import ActuatorSink, Fill, SinkEvent, SinkFormat, has_clock
@@ -141,13 +142,19 @@ class Output:
         if has_clock(self.sink) or hasattr(self.sink, "abort"):
             # A program may end without `stop`: by an error, by Ctrl-C, or at the end of its code. Called before the
             # sink's own end, which neither fades nor completes a file.
-            atexit.register(self.stop)
+            atexit.register(self._stop_at_exit)
 
     def stop(self) -> None:
         """Fade out, stop the sink and release it, as at the end of the program; may be called twice."""
         if (sink := self._played_here()) is not None:
             self._fade_out(sink)
             self._release(sink, sink.close)
+
+    def _stop_at_exit(self) -> None:
+        try:
+            self.stop()
+        except DeviceError as error:  # Python would show its traceback
+            warn_of(str(error))
 
     def abort(self) -> None:
         """Stop after a failure. A sink with a method `abort` can then discard a half-written file."""
@@ -163,7 +170,7 @@ class Output:
 
     def _release(self, sink: ActuatorSink, end: Callable[[], None]) -> None:
         """Stop a sink and call `end`, `close` or `abort`, also if it does not stop; then give it back."""
-        atexit.unregister(self.stop)
+        atexit.unregister(self._stop_at_exit)
         try:
             try:
                 sink.stop()
