@@ -50,11 +50,11 @@ class ContactLaw:
         checks.number("preload_n", self.preload_n, "N", above=0.0, error=ConfigError)
         checks.number("loss_floor", self.loss_floor, "-", at_least=0.0, at_most=2.0, error=ConfigError)
 
-    def preload(self, masses_kg: Sequence[float], n_contacts: int) -> float:
-        """Load on each contact of a pair [N]: equal shares of the weight of the lighter object.
+    def preload(self, masses_kg: Sequence[float], n_contacts: float) -> float:
+        """Load on each contact [N]: equal shares of the weight of the lightest mass.
 
-        The lighter object rests on the other. Parameters: masses_kg : known masses of the pair's objects; without any,
-        the load is `preload_n`.
+        Parameters: masses_kg : known masses that may press; without any, the load is `preload_n`; n_contacts : a
+        contact that fades counts as a part of one.
         """
         if not masses_kg:
             return self.preload_n
