@@ -11,7 +11,7 @@ import numpy as np
 
 from scene2hap.contact.junction import Pair, pair_of
 from scene2hap.materials import Material
-from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.contact_stiffness import FADING_LOSS, ContactLaw
 from scene2hap.propagation.coupled.coupling import NORMAL, REVERSED, Along, Joint
 from scene2hap.propagation.coupled.layers import Spring, pressed_through
 from scene2hap.propagation.coupled.standing import standings
@@ -42,9 +42,9 @@ def joints_of(
 ) -> list[Joint]:
     """Return the joints between bodies that carry vibration, in an order that does not depend on the contacts' order.
 
-    A contact's weight scales its stiffness; a contact of weight 0 makes no joint. Contacts of a pair in one place and
-    direction act in parallel, so their stiffnesses add up. A soft layer also touches its support below a load
-    (`layers`).
+    A contact's weight scales its stiffness, and one that fades loses more (`FADING_LOSS`); a contact of weight 0 makes
+    no joint. Contacts of a pair in one place and direction act in parallel, so their stiffnesses add up. A soft layer
+    also touches its support below a load (`layers`).
 
     Parameters: source_kg : mass with which each source moves [kg].
     """
@@ -65,7 +65,8 @@ def joints_of(
         found = []
         for contact, (k, loss) in several:
             points_m, alongs = (next(places[a]), next(places[b])), (next(directions[a]), next(directions[b]))
-            found.append(Joint(a, b, *points_m, contact.weight * k, loss, 0.0, *alongs))
+            fading = FADING_LOSS * (1 - contact.weight)
+            found.append(Joint(a, b, *points_m, contact.weight * k, loss + fading, 0.0, *alongs))
         joints += _merged(found)
     joints.sort(key=lambda joint: (joint.a, joint.b))
     return joints
