@@ -91,6 +91,22 @@ def test_where_nobody_is_known_to_be_above_the_lighter_rests() -> None:
     assert loads(stack({"a": 1.0, "b": 1.0}, ("a", "b", 1), normal=None)) == {("a", "b"): (None, 1.0)}
 
 
+def test_without_normals_the_places_of_contacts_tell_who_is_above() -> None:
+    """A worktop that is flush with a cabinet below it, and both with a wall behind them."""
+    cabinet, wall = Plate(0.6, 0.5, 0.02, PLYWOOD, object_mass_kg=20.0), RigidBody(2000.0, (4.0, 0.1, 2.5))
+    worktop = Plate(1.8, 0.6, 0.04, PLYWOOD, object_mass_kg=30.0)
+    poses = {"cabinet": Pose((0.0, 0.0, 0.43)), "worktop": Pose((0.0, 0.0, 0.88)), "wall": Pose((0.0, 0.6, 1.25))}
+    contacts = [Contact("cabinet", "worktop", (x, y, 0.86)) for x in (0.0, 0.6) for y in (0.0, 0.5)]
+    contacts += [Contact("cabinet", "wall", (x, 0.5, z)) for x in (0.0, 0.6) for z in (0.0, 0.86)]
+    contacts += [Contact("worktop", "wall", (x, 0.6, z)) for x in (0.0, 1.8) for z in (0.86, 0.9)]
+    bodies: dict[str, Body] = {"cabinet": cabinet, "worktop": worktop, "wall": wall}
+    assert loads(ContactNetwork(bodies, contacts, poses, "z")) == {
+        ("cabinet", "worktop"): ("worktop", 7.5),
+        ("cabinet", "wall"): ("cabinet", 5.0),
+        ("wall", "worktop"): ("worktop", 7.5),
+    }
+
+
 def test_loads_do_not_jump_where_a_contact_vanishes() -> None:
     """A corner that is lifted hands its load to the others; an object that is lifted presses less on what is below."""
     whole = stack({"floor": 200.0, "table": 5.0, "oven": 14.0}, ("floor", "table", 4), ("table", "oven", 4))

@@ -2,9 +2,9 @@
 
 A contact carries what stands above it: an object passes its own weight, and that of all that stands on it, to the
 objects below it, in equal shares over its contacts with them. The normals of the contacts and the up axis tell which
-object is above. Where they do not, the lighter object of a pair counts as the one that rests on the other, by its own
-weight alone: normals or the up axis are unknown, the contact is steep, the lower object hangs, or a ring of objects
-lies on itself.
+object is above; without normals, contacts at one height between the middles of both objects do. Otherwise the lighter
+object of a pair counts as the one that rests on the other, by its own weight alone: the up axis is unknown, the two
+touch sideways, the lower one hangs, or a ring of objects lies on itself.
 """
 
 from __future__ import annotations
@@ -18,11 +18,15 @@ from scene2hap.contact.junction import Pair
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body, ContactNetwork
-from scene2hap.scene.objects import VERTICAL, Contact, UpAxis
+from scene2hap.scene.geometry import Vector
+from scene2hap.scene.objects import VERTICAL, Contact
 
 _STEEP = 0.5
 """A contact carries weight if at least this part of its normal is vertical, up to a slope of 60 degrees. Assumed; on
 steeper ones, objects lean or are held."""
+_ONE_HEIGHT_M = 0.01
+"""Largest difference in height of contacts without normals on which an object stands. Assumed; objects that are flush
+side by side touch over their height."""
 
 
 class Standing(NamedTuple):
@@ -43,7 +47,7 @@ def standings(
     stated_kg = {object_id: _stated_mass_kg(network.bodies.get(object_id)) for object_id in ids}
     masses_kg = {key: _moving_kg(network, key, source_kg) if kg is None else kg for key, kg in stated_kg.items()}
     stated = {object_id for object_id, kg in stated_kg.items() if kg is not None}
-    found = _from_above(_supports(network.up_axis, pairs, masses_kg), masses_kg, stated, law)
+    found = _from_above(_supports(network, pairs, masses_kg), masses_kg, stated, law)
     for pair, contacts in pairs.items():
         if pair not in found:
             found[pair] = _lighter(pair, len(contacts), masses_kg, stated, law)
@@ -60,18 +64,20 @@ class _Support(NamedTuple):
 
 
 def _supports(
-    up_axis: UpAxis | None, pairs: Mapping[Pair, Sequence[Contact]], masses_kg: Mapping[str, float]
+    network: ContactNetwork, pairs: Mapping[Pair, Sequence[Contact]], masses_kg: Mapping[str, float]
 ) -> dict[str, dict[Pair, _Support]]:
     """The supports of each object that stands."""
     below: dict[str, dict[Pair, _Support]] = defaultdict(dict)
-    if up_axis is None:
+    if network.up_axis is None:
         return below
-    up = VERTICAL[up_axis]
+    up = VERTICAL[network.up_axis]
     for pair, contacts in pairs.items():
         carrying: dict[str, list[float]] = {pair[0]: [], pair[1]: []}
+        by_place = _upper_by_place(network, pair, contacts, up)
         for one in contacts:
-            if one.normal is not None and abs(one.normal[up]) >= _STEEP:
-                carrying[one.b if one.normal[up] > 0 else one.a].append(one.weight)
+            upper = by_place if one.normal is None else _upper_by_normal(one, one.normal[up])
+            if upper is not None:
+                carrying[upper].append(one.weight)
         (less, lower), (more, upper) = sorted((math.fsum(several), key) for key, several in carrying.items())
         if more > less:
             below[upper][pair] = _Support(upper, lower, more, max(carrying[upper]))
@@ -84,6 +90,30 @@ def _supports(
     for upper, pair in hanging:
         del below[upper][pair]
     return below
+
+
+def _upper_by_normal(contact: Contact, rise: float) -> str | None:
+    if abs(rise) < _STEEP:
+        return None
+    return contact.b if rise > 0 else contact.a
+
+
+def _upper_by_place(network: ContactNetwork, pair: Pair, contacts: Sequence[Contact], up: int) -> str | None:
+    """The object whose middle is above contacts below which the other's is, if they have no normals and one height."""
+    if any(one.normal is not None for one in contacts) or not all(key in network.poses for key in pair):
+        return None
+    (low_m, _), (high_m, upper) = sorted((_middle_m(network, key)[up], key) for key in pair)
+    heights_m = [one.point_m[up] for one in contacts]
+    is_level = max(heights_m) - min(heights_m) <= _ONE_HEIGHT_M
+    return upper if is_level and low_m < min(heights_m) and max(heights_m) < high_m else None
+
+
+def _middle_m(network: ContactNetwork, object_id: str) -> Vector:
+    """Middle of a body in the world [m]; its position if it has no size."""
+    body, pose = network.bodies.get(object_id), network.poses[object_id]
+    size_m = (body.length_m, body.width_m) if isinstance(body, Plate) else body and body.size_m
+    x, y, z = pose.to_world([(size_m[0] / 2, size_m[1] / 2, 0.0) if size_m else (0.0, 0.0, 0.0)])[0].tolist()
+    return x, y, z
 
 
 def _hangs(
