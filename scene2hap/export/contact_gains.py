@@ -49,7 +49,7 @@ def contact_paths(bundle: HapticBundle, model: PropagationModel | None = None) -
     known = {key: body for key, body in bodies.items() if body is not None}
     poses = PlatePoses(objects, known, {key: item.pose for key, item in objects.items()})
     contacts = ContactGraph(scene).contacts
-    network = ContactNetwork(known, contacts, poses)
+    network = ContactNetwork(known, contacts, poses, scene.up_axis)
     excitations = excitations_of(rows, known, bundle.objects)
     if not excitations:
         return ()

@@ -39,7 +39,7 @@ class Plate:
     "free", "simply-supported", "clamped", or four letters F, S, C for the edges x=0, x=length, y=0, y=width;
     object_mass_kg : mass of the whole object [kg], used where it moves as a whole, None for the plate's mass;
     mass_is_estimate : True if no scene or person gave the mass, so that it limits the thickness less; feet : material
-    of the feet on which the object rests on heavier ones, None for its own; outline : outline of a plate that
+    of the feet on which the object stands, None for its own; outline : outline of a plate that
     is not a rectangle, within length and width, with free edges; None for the rectangle. `MassSpringDamper` and
     `AutoFidelity` follow it, `ModalPlate` raises an error, and other models ignore edges.
     Raises: ModelDomainError: a dimension is not positive and finite, the boundary is not one of these, or an edge of a

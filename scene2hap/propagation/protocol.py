@@ -20,7 +20,7 @@ from scene2hap.haptics import Bands
 from scene2hap.plugins import Members, lacking
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import InRectangle, object_points
-from scene2hap.scene.objects import Contact
+from scene2hap.scene.objects import VERTICAL, Contact, UpAxis
 from scene2hap.scene.pose import Pose
 
 if TYPE_CHECKING:
@@ -59,11 +59,13 @@ class ContactNetwork:
     An object without a body, because its material is unknown, does not carry vibration; it may still be a source.
     `poses` places the frame of each body in the world: its origin is a corner of the plate's mid-plane, x runs along
     the length, y along the width. A plate without a pose has its corner at the world's origin and its sides along x, y.
+    `up_axis` tells which object of a pair stands on the other; None if unknown.
     """
 
     bodies: Mapping[str, Body]
     contacts: Sequence[Contact] = field(default_factory=tuple)
     poses: Mapping[str, Pose] = field(default_factory=dict)
+    up_axis: UpAxis | None = None
 
     def __post_init__(self) -> None:
         bodies = self.bodies
@@ -72,6 +74,8 @@ class ContactNetwork:
             raise ModelDomainError(
                 f"bodies is or has {checks.described(wrong)}; it must be a mapping of object ids to Plate or RigidBody."
             )
+        if self.up_axis not in (None, *VERTICAL):
+            raise ModelDomainError(f"up_axis is {checks.represented(self.up_axis)}; it must be 'y', 'z' or None.")
 
     def on_body(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
         """Convert world points to (n_points, 2) [m] along length and width of a body, from its corner.

@@ -145,18 +145,19 @@ class SceneState:
         be called later and in another thread, since listing contacts takes longer than an update may.
         """
         objects, bodies, poses, junctions = self.objects, self.bodies, self.poses, dict(self.graph.junctions)
-        spelling, corners = self._spelling, self._corners
+        spelling, corners, up_axis = self._spelling, self._corners, self._scene.up_axis
 
         def put_together(near: Collection[str]) -> ModelInput:
             if source_ids is None:
                 everywhere = PlatePoses(objects, bodies, poses, corners)
-                return ModelInput(ContactNetwork(bodies, spelling.of(junctions), everywhere))
+                return ModelInput(ContactNetwork(bodies, spelling.of(junctions), everywhere, up_axis))
             reach = reach_over(junctions, {*bodies, *source_ids}, source_ids)
             everything = reach.objects
             reached = reach.objects_near(near) or everything
             among = {object_id: body for object_id, body in bodies.items() if object_id in reached}
             within = {pair: one for pair, one in junctions.items() if pair[0] in reached}
-            network = ContactNetwork(among, spelling.of(within), PlatePoses(objects, among, poses, corners))
+            places = PlatePoses(objects, among, poses, corners)
+            network = ContactNetwork(among, spelling.of(within), places, up_axis)
             return ModelInput(network, None if len(reached) == len(everything) else reached)
 
         return put_together

@@ -20,6 +20,7 @@ from scene2hap import (
     ModalPlate,
     Plate,
     Pose,
+    RigidBody,
     SceneObject,
     SceneSnapshot,
     Touch,
@@ -98,3 +99,30 @@ def test_an_overridden_mass_reaches_a_thick_table() -> None:
 
     for mass_kg in (12.0, 24.0):
         assert gain(mass_kg) == pytest.approx(PHONE_KG / (PHONE_KG + mass_kg), rel=0.05)
+
+
+FOAM = materials.lookup("foam")
+
+
+@pytest.mark.parametrize(
+    ("thin", "thick"),
+    [
+        (Plate(0.5, 0.4, 0.0999, FOAM), Plate(0.5, 0.4, 0.1001, FOAM)),  # a fifth of the longer side
+        # Solid by its mass, and just hollow.
+        (Plate(0.5, 0.4, 0.0856, FOAM, object_mass_kg=0.6), Plate(0.5, 0.4, 0.0858, FOAM, object_mass_kg=0.6)),
+    ],
+)
+def test_a_thick_soft_block_bends_as_one_that_is_a_little_thinner(thin: Plate, thick: Plate) -> None:
+    """Foam has its first mode at 22 Hz, so that no thickness makes a cushion a rigid body."""
+    levels = []
+    for block in (thin, thick):
+        contacts = [Contact("phone", "cushion", (x, y, 0.0)) for x in (0.12, 0.18) for y in (0.1, 0.14)]
+        bodies: dict[str, Plate | RigidBody] = {"cushion": block, "phone": RigidBody(0.2, (0.06, 0.04, 0.01))}
+        network = ContactNetwork(bodies, contacts, {"cushion": Pose(), "phone": Pose((0.12, 0.1, 0.05))})
+        field = AutoFidelity(outside_domain="ignore").prepare(
+            network, [Excitation("phone", 180.0, 180.0, 0.2)], Bands.dominant(0.5)
+        )
+        assert field.choices["cushion"].rung != "rigid"
+        at = [(x, y, 0.0) for x in (0.25, 0.35, 0.48) for y in (0.05, 0.2, 0.38)]
+        levels.append(20 * np.log10(field.attenuation("cushion", at)[:, 0, 0]))
+    np.testing.assert_allclose(levels[0], levels[1], atol=0.5)

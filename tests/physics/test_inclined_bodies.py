@@ -21,6 +21,7 @@ from scene2hap import (
     ModalPlate,
     Plate,
     Pose,
+    RigidBody,
     materials,
 )
 from scene2hap.propagation.bands.band_shapes import CLOSE, band_gains
@@ -234,3 +235,35 @@ def test_gains_do_not_depend_on_the_compass_direction_of_a_room(model: ModalPlat
     expected = gains(0.0)
     for degrees in (45, 90, 135, 180, 225, 270, 315, 17):
         assert gains(math.radians(degrees)) == pytest.approx(expected, rel=1e-6), degrees
+
+
+def leaning(degrees: float, board: Plate) -> ContactNetwork:
+    """A board that lies on a table with two places of its edge, and is tilted about it."""
+    half = math.radians(degrees) / 2
+    pose = Pose((0.2, 0.3, 0.0), (math.sin(half), 0.0, 0.0, math.cos(half)))
+    contacts = [Contact("table", "phone", (x, y, 0.0), UP) for x in (0.4, 0.46) for y in (0.5, 0.6)]
+    touching = pose.to_world([(part * board.length_m, 0.0, 0.0) for part in (0.1, 0.9)]).tolist()
+    contacts += [Contact("table", "board", at, UP) for at in touching]
+    table = Plate(1.2, 0.7, 0.03, OAK)
+    poses = {"table": Pose((0.0, 0.0, -0.015)), "board": pose, "phone": Pose((0.4, 0.5, 0.005))}
+    return ContactNetwork({"table": table, "board": board, "phone": RigidBody(0.2, (0.06, 0.1, 0.01))}, contacts, poses)
+
+
+@pytest.mark.parametrize("degrees", [1.0, 3.0, math.degrees(math.acos(0.9))])
+def test_gains_do_not_step_while_a_board_is_tilted(degrees: float) -> None:
+    """No angle divides a board that bends alone from one that also moves along its plane."""
+    steps = []
+    for f, board in (
+        (60.0, Plate(0.5, 0.3, 0.012, STEEL)),
+        (150.0, Plate(0.4, 0.25, 0.006, OAK)),
+        (240.0, Plate(0.6, 0.2, 0.018, OAK)),
+        (380.0, Plate(0.3, 0.35, 0.004, STEEL)),
+    ):
+        levels = []
+        for angle in (degrees - 0.01, degrees + 0.01):
+            network = leaning(angle, board)
+            at = network.poses["board"].to_world([(x, y, 0.0) for x in (0.05, 0.2) for y in (0.05, 0.15)])
+            field = ModalPlate().prepare(network, [Excitation("phone", f, f, 0.2)], Bands.dominant(0.5))
+            levels.append(20 * np.log10(field.attenuation("board", at)[:, 0, 0]))
+        steps.append(np.abs(levels[1] - levels[0]).max())
+    assert max(steps) < 0.1

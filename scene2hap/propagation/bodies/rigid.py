@@ -26,12 +26,15 @@ Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 _THICK = 1 / 5
-"""Largest thickness over a side for which a plate can bend along the side; thin-plate theory is not valid beyond."""
+"""Largest thickness over a side for which thin-plate theory is valid along the side."""
 COMPACT_HZ, HOLLOW_HZ = 10_000.0, 2000.0
 """Frequencies of the first mode above which a free body counts as rigid for all that a hand feels, up to 1 kHz. A small
 plate with a first mode below 10 kHz yields about as much as its contacts, which shifts resonances: with a first mode at
 2-5 kHz, the error would be 1-12 dB at the 95th percentile (docs/figures/accuracy.md). For hollow bodies, mass matters
 more than bending."""
+BOX_HZ = 100.0
+"""First mode of a solid beam above which a thick hollow body is a rigid box. Assumed: it is above that of cushions of
+foam, at 3-80 Hz, and below that of cases, cabinets and bathtubs, at 140 Hz or more."""
 
 
 def is_hollow(plate: Plate) -> bool:
@@ -40,7 +43,7 @@ def is_hollow(plate: Plate) -> bool:
 
 
 def is_too_thick(plate: Plate) -> bool:
-    """Whether a plate is too thick to bend: a solid plate along its longer side, a hollow one along either side."""
+    """Whether thin-plate theory is not valid along the longer side of a solid plate, or either side of a hollow one."""
     side = min(plate.extent_m) if is_hollow(plate) else max(plate.extent_m)
     return plate.thickness_m > _THICK * side
 
@@ -53,9 +56,17 @@ def is_stiff(plate: Plate, above_hz: float) -> bool:
 @lru_cache(maxsize=4096)
 def is_compact(plate: Plate) -> bool:
     """Whether a plate is so stiff that it moves as a rigid body. False for a plate that is held at an edge: as a rigid
-    body it would not move at all."""
-    least_hz = HOLLOW_HZ if is_hollow(plate) else COMPACT_HZ
-    return plate.edges == "FFFF" and (is_too_thick(plate) or is_stiff(plate, least_hz))
+    body it would not move at all.
+
+    A thick solid plate bends by its first mode, as a thin one: beyond the range of thin-plate theory, but a block of
+    foam is nearer to that than to a rigid body. A thick hollow one is a box, stiffer than a plate of its mass.
+    """
+    if plate.edges != "FFFF":
+        return False
+    if not is_hollow(plate):
+        return is_stiff(plate, COMPACT_HZ)
+    is_box = is_too_thick(plate) and beam_hz(plate) >= BOX_HZ
+    return is_box or is_stiff(plate, HOLLOW_HZ)
 
 
 class Spread(NamedTuple):

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -182,7 +182,7 @@ def prepare_struck(model: CoupledModel, network: ContactNetwork, touched_ids: Co
     probes = {f"{_PROBE}{i}": object_id for i, object_id in enumerate(touched_ids)}
     places = {probe: network.poses.get(object_id, Pose()).position_m for probe, object_id in probes.items()}
     contacts = [Contact(probe, object_id, places[probe]) for probe, object_id in probes.items()]
-    with_probes = ContactNetwork(network.bodies, (*network.contacts, *contacts), network.poses)
+    with_probes = replace(network, contacts=(*network.contacts, *contacts))
     sources = [Excitation(probe, 100.0, 100.0, _PROBE_KG) for probe in probes]
     # Preparing the field in use already warns of thick plates.
     scene = assemble(with_probes, sources, IMPACT_BANDS, model.contact, "ignore")

@@ -8,13 +8,14 @@ are relative to that point, so that the mass of the source and the stiffness of 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.live import PointField, TouchedPoint
-from scene2hap.propagation.protocol import ContactNetwork, Excitation, PropagationModel
+from scene2hap.propagation.protocol import Excitation, PropagationModel
 from scene2hap.scene.objects import Contact
 from scene2hap.session.scene_state import SceneState
 
@@ -66,7 +67,7 @@ def struck_later(
         excitations = [
             Excitation(striker, f, f, _STRIKER_KG) for striker, f in zip(strikers, frequencies_hz.tolist(), strict=True)
         ]
-        with_them = ContactNetwork(network.bodies, (*network.contacts, *contacts), network.poses)
+        with_them = replace(network, contacts=(*network.contacts, *contacts))
         field = model.prepare(with_them, excitations, AROUND)
         itself = field.attenuation(object_id, np.array([point_m]))[0, :, 0]
         gains = np.zeros((len(hands), len(frequencies_hz)))
