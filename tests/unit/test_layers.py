@@ -9,6 +9,7 @@ import networkx as nx
 import pytest
 
 PACKAGE = Path(__file__).parents[2] / "scene2hap"
+UNIT = Path(__file__).parent
 ARCHITECTURE = PACKAGE.parent / "docs" / "architecture.md"
 
 # From bottom to top; packages of one row never import each other.
@@ -61,6 +62,11 @@ def imports_of(path: Path) -> set[str]:
 
 
 SOURCES = [path for path in sorted(PACKAGE.rglob("*.py")) if path != PACKAGE / "__init__.py"]
+
+
+def test_unit_tests_stand_where_the_package_stands() -> None:
+    folders = {path.parent.relative_to(UNIT) for path in UNIT.rglob("test_*.py")}
+    assert {folder.as_posix() for folder in folders if not (PACKAGE / folder).is_dir()} == {"kernels", "plots"}
 
 
 def test_every_package_has_a_layer() -> None:

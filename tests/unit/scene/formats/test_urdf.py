@@ -20,7 +20,7 @@ from scene2hap.scene import limits
 from scene2hap.scene.formats import urdf, urdf_files
 from scene2hap.scene.load import TextureWarning
 
-LAUNDRY = Path(__file__).parents[2] / "data" / "urdf" / "laundry"
+LAUNDRY = Path(__file__).parents[3] / "data" / "urdf" / "laundry"
 MASSES_KG = {"floor": None, "washing_machine": 62.5, "machine_door": 2.0, "stool": 3.5, "towel": 0.4}
 TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 BOX = "<visual><geometry><box size='1 1 1'/></geometry></visual>"

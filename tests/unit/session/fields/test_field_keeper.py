@@ -388,7 +388,7 @@ print("the game ends", flush=True)
 
 def test_a_worker_leaves_its_work_before_the_interpreter_exits() -> None:
     """A worker stopped within a solver would print unrelated errors, and a model may prepare for minutes."""
-    support = Path(__file__).parents[2] / "support"
+    support = Path(__file__).parents[3] / "support"
     game = [sys.executable, "-W", "ignore", "-c", A_GAME_THAT_ENDS]
     run = subprocess.run(game, capture_output=True, text=True, check=True, cwd=support, timeout=120)
     assert run.stdout.split("\n") == ["the game ends", "the worker leaves", ""]

@@ -21,7 +21,7 @@ from scene2hap import SceneSnapshot, load_scene
 from scene2hap.errors import Scene2HapError, SceneError, SceneFormatError
 from scene2hap.scene.formats import meshopt_codec
 
-DATA = Path(__file__).parents[2] / "data" / "meshopt"
+DATA = Path(__file__).parents[3] / "data" / "meshopt"
 STREAMS: list[dict[str, Any]] = json.loads((DATA / "streams.json").read_text(encoding="utf-8"))
 EXT = "EXT_meshopt_compression"
 # A step of gltfpack's 14 bits over the 3 m of the laundry, and of 15 bits of mantissa, in metres.
