@@ -22,7 +22,7 @@ from scene2hap.common.html_tables import html_table
 from scene2hap.propagation.exponential_plate import ExponentialPlate, PathCosts
 from scene2hap.propagation.live import PathCostField
 from scene2hap.propagation.paths.traced_paths import Leg, PathsToPoint, Point
-from scene2hap.propagation.protocol import Carrier, CarryingField
+from scene2hap.propagation.protocol import Carrier, CarryingField, follows_poses
 from scene2hap.session.audibility import NOWHERE
 from scene2hap.session.frame import HapticFrame, Touch
 from scene2hap.session.hand_gains import TouchGains
@@ -215,7 +215,8 @@ class Explainer:
         ids = self._sources.ids
         reach = self._state.reach(ids)
         columns = frozenset[int]().union(*(reach.sources(object_id) for object_id in on))
-        near = [source_id for column, source_id in enumerate(ids) if column in columns or source_id in on]
+        needs_path = not follows_poses(self._model)
+        near = [x for column, x in enumerate(ids) if column in columns or x in on or not needs_path]
         if not near:
             yield "No source touches it, directly or over other objects."
             inside = [source_id for source_id in ids if any(self._is_inside(source_id, x) for x in on)]

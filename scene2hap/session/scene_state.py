@@ -17,7 +17,7 @@ from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import RemovedIds
 from scene2hap.session.impacts.slams import Way, edge_that_meets
-from scene2hap.session.network import Corners, PlatePoses, body_of, rigid_body_of
+from scene2hap.session.network import Corners, Middles, PlatePoses, body_of, own_middle_m, rigid_body_of
 from scene2hap.session.reach import Reach, reach_over
 
 Thing = TypeVar("Thing")
@@ -99,9 +99,8 @@ class SceneState:
         return change
 
     def middle_m(self, object_id: str) -> tuple[float, float, float]:
-        """Centre of the box around an object, in its own frame [m]."""
-        x, y, z = self.objects[object_id].geometry.mesh.bounds_m.mean(axis=0).tolist()
-        return x, y, z
+        """Middle of the box around an object, in its own frame [m]."""
+        return own_middle_m(self.objects[object_id])
 
     def edge_that_meets(self, object_id: str, way: Callable[[str], Way]) -> tuple[str, Vector] | None:
         """Return what a hinge holds an object on, and where the two meet: see `slams.edge_that_meets`; None if they do
@@ -145,18 +144,19 @@ class SceneState:
         be called later and in another thread, since listing contacts takes longer than an update may.
         """
         objects, bodies, poses, junctions = self.objects, self.bodies, self.poses, dict(self.graph.junctions)
-        spelling, corners = self._spelling, self._corners
+        spelling, corners, middles_m = self._spelling, self._corners, Middles(objects, poses)
 
         def put_together(near: Collection[str]) -> ModelInput:
             if source_ids is None:
                 everywhere = PlatePoses(objects, bodies, poses, corners)
-                return ModelInput(ContactNetwork(bodies, spelling.of(junctions), everywhere))
+                return ModelInput(ContactNetwork(bodies, spelling.of(junctions), everywhere, middles_m))
             reach = reach_over(junctions, {*bodies, *source_ids}, source_ids)
             everything = reach.objects
             reached = reach.objects_near(near) or everything
             among = {object_id: body for object_id, body in bodies.items() if object_id in reached}
             within = {pair: one for pair, one in junctions.items() if pair[0] in reached}
-            network = ContactNetwork(among, spelling.of(within), PlatePoses(objects, among, poses, corners))
+            corners_of = PlatePoses(objects, among, poses, corners)
+            network = ContactNetwork(among, spelling.of(within), corners_of, middles_m)
             return ModelInput(network, None if len(reached) == len(everything) else reached)
 
         return put_together

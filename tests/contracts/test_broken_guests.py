@@ -116,6 +116,7 @@ MODELS: list[tuple[Any, str]] = [
     (Model(lambda found, *_: found + 1e-6), "a source is felt on itself by 1.000001; it must be 1"),
     (Reused(), "Reused: a query changes the array of the one before"),
     (Forgetful(), "Forgetful: preparing another scene changes a field"),
+    (Model(lambda found, key, _: found + 0.2 * (key == "shelf")), "it must be 0, or the class declare follows_poses"),
     (FromAToB(lambda found, *_: found), "with a and b of each contact swapped"),
 ]
 

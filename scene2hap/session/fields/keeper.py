@@ -23,6 +23,7 @@ from scene2hap.propagation.protocol import (
     ExpectantField,
     PropagationField,
     PropagationModel,
+    follows_poses,
 )
 from scene2hap.propagation.reference import FeltNear
 from scene2hap.session.config import SessionConfig
@@ -91,7 +92,8 @@ class FieldKeeper:
     """Prepares fields for the present scene. The last field stays in use until a newer one is ready.
 
     Parameters: is_background : whether a worker prepares, beginning now; until the first field is ready, each source is
-    felt on itself alone; skips_unreachable : leave objects that no source reaches out of the model's input.
+    felt on itself alone; skips_unreachable : leave objects that no source reaches out of the model's input. An outdated
+    field is silent for sources without a path, unless the model follows poses.
     Raises: the errors of the model, if no worker prepares.
     """
 
@@ -106,7 +108,7 @@ class FieldKeeper:
         skips_unreachable: bool,
     ) -> None:
         self._worker = FieldWorker(model, bands)
-        self._state = state
+        self._state, self._follows_poses = state, follows_poses(model)
         # For the fields that the keeper holds: only the garbage collector could free a cycle of strong references, and
         # a game may switch it off, or call `gc.freeze`.
         self._weak: FieldKeeper = weakref.proxy(self)
@@ -186,7 +188,15 @@ class FieldKeeper:
 
         def as_now(one: Prepared) -> LastField:
             then, situation = one.situation.poses, one.situation
-            return LastField(one.field, then, now, source_ids, n_bands, reach, lambda: situation is keeper._requested)
+            return LastField(
+                one.field,
+                then,
+                now,
+                source_ids,
+                n_bands,
+                reach,
+                lambda: keeper._follows_poses or situation is keeper._requested,
+            )
 
         field = FieldInUse(source_ids, as_now, note)
         field.use(self.in_use, self._whole)
@@ -294,7 +304,7 @@ class LiveKeeper:
                 field.succeed(self.field)
             self._made_for = (bodies, excitations)
             self.field: LiveField = field
-            self._mapped = None
+        self._mapped = None
 
     def order(self) -> None:
         """Do nothing: a live field needs no preparation."""
@@ -334,7 +344,7 @@ def keeper_of(config: SessionConfig, state: SceneState, excitations: Sequence[Ex
         return LiveKeeper(model, bands, state, excitations)
     if config.reference == "felt_near":
         model = FeltNear(model)
-    is_background, skips_unreachable = config.prepare == "background", config.skip.unreachable
+    is_background, skips_unreachable = config.prepare == "background", config.skips_unreachable
     return FieldKeeper(
         model, bands, state, excitations, is_background=is_background, skips_unreachable=skips_unreachable
     )
