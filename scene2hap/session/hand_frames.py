@@ -161,7 +161,10 @@ class HandFrames:
         levels = self._levels_at(hand)
         gains = self._touch_gains(self.keeper.for_points(self._sources.ids, self._reach, len(touches)), Counts())
         explainer = Explainer(self._state, self._sources, self._config.propagation, self.keeper.field, gains, levels)
-        return explainer.explain(hand, touches, self._frame, is_current=self.keeper.is_current, is_paused=is_paused)
+        keeper = self.keeper
+        return explainer.explain(
+            hand, touches, self._frame, is_current=keeper.is_current, failure=keeper.failure, is_paused=is_paused
+        )
 
     def would_feel(self, touches: Sequence[Touch]) -> NDArray[np.float64]:
         """Gains (n_touches, n_sources, n_bands) [-] of each touch alone, 0 below -140 dB; no touch is counted."""

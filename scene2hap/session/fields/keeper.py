@@ -11,8 +11,8 @@ from collections.abc import Callable, Mapping, Sequence
 from threading import Thread
 from typing import Protocol
 
+from scene2hap.common.failures import failure_of
 from scene2hap.common.warning import warn_of
-from scene2hap.errors import Scene2HapError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.controls import NoPropagation
 from scene2hap.propagation.live import LiveField, LiveModel, SucceedingField, TouchedPoint
@@ -56,6 +56,11 @@ class Keeper(Protocol):
     @property
     def is_current(self) -> bool:
         """Whether the field in use is that of the newest scene state."""
+        ...
+
+    @property
+    def failure(self) -> str:
+        """A sentence: why there is no newer field, though none is being prepared; empty if the model did not fail."""
         ...
 
     @property
@@ -119,7 +124,7 @@ class FieldKeeper:
         self._n_answered = self._n_ordered = self._n_put = 0
         self._n_prepared = self._n_failed = 0
         self._last_failure, self._latency_s = "", 0.0
-        self._is_refused = False
+        self._failure, self._is_refused = "", False
         before = self._situation(0, excitations)
         self._whole = Prepared(NoPropagation().prepare(ContactNetwork({}), excitations, bands), before)
         self.in_use: Prepared = self._whole
@@ -136,6 +141,11 @@ class FieldKeeper:
     def is_current(self) -> bool:
         """Whether the field in use was prepared for the newest scene state."""
         return self.in_use.situation is self._requested
+
+    @property
+    def failure(self) -> str:
+        """See `Keeper`."""
+        return self._failure if self._is_refused else ""
 
     @property
     def stats(self) -> SessionStats:
@@ -258,12 +268,12 @@ class FieldKeeper:
 
     def _note(self, problem: Exception) -> None:
         self._n_failed += 1
-        self._last_failure = str(problem) if isinstance(problem, Scene2HapError) else repr(problem)
+        self._last_failure = failure_of(problem)
         instead = "the last one plays on" if self._n_prepared else "each source is felt on itself alone"
-        warning = f"a field could not be prepared, so that {instead}: {self._last_failure}"
+        self._failure = f"The model could not prepare a field, so that {instead}: {self._last_failure}"
         # Once until a field is prepared again, since a game may change its scene in every frame.
         if not self._is_refused:
-            warn_of(warning, FieldWarning)
+            warn_of(self._failure, FieldWarning)
         self._is_refused = True
 
     def _put(self, order: Situation | Sign) -> None:
@@ -281,6 +291,7 @@ class LiveKeeper:
     """
 
     is_current = True
+    failure = ""
 
     def __init__(self, model: LiveModel, bands: Bands, state: SceneState, excitations: Sequence[Excitation]) -> None:
         self._model, self._bands, self._state = model, bands, state
