@@ -14,7 +14,7 @@ from scene2hap.propagation.exponential_plate import ExponentialPlate
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, PropagationModel
 from scene2hap.session.mix.sources import LoopRow
-from scene2hap.session.network import PlatePoses, body_of, excitations_of
+from scene2hap.session.network import Middles, PlatePoses, body_of, excitations_of
 
 LEAST_GAIN = 1e-3
 """Least gain that is exported [-]: 60 dB below the source nothing is felt."""
@@ -47,9 +47,10 @@ def contact_paths(bundle: HapticBundle, model: PropagationModel | None = None) -
     objects = {item.id: item for item in scene.objects}
     bodies = {key: body_of(bundle.objects.get(key), item.surface) for key, item in objects.items()}
     known = {key: body for key, body in bodies.items() if body is not None}
-    poses = PlatePoses(objects, known, {key: item.pose for key, item in objects.items()})
+    poses = {key: item.pose for key, item in objects.items()}
     contacts = ContactGraph(scene).contacts
-    network = ContactNetwork(known, contacts, poses, scene.up_axis)
+    corners = PlatePoses(objects, known, poses)
+    network = ContactNetwork(known, contacts, corners, scene.up_axis, Middles(objects, poses))
     excitations = excitations_of(rows, known, bundle.objects)
     if not excitations:
         return ()

@@ -20,6 +20,7 @@ from scene2hap.haptics import Bands
 from scene2hap.plugins import Members, lacking
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import InRectangle, object_points
+from scene2hap.scene.geometry import Vector
 from scene2hap.scene.objects import VERTICAL, Contact, UpAxis
 from scene2hap.scene.pose import Pose
 
@@ -59,13 +60,15 @@ class ContactNetwork:
     An object without a body, because its material is unknown, does not carry vibration; it may still be a source.
     `poses` places the frame of each body in the world: its origin is a corner of the plate's mid-plane, x runs along
     the length, y along the width. A plate without a pose has its corner at the world's origin and its sides along x, y.
-    `up_axis` tells which object of a pair stands on the other; None if unknown.
+    `up_axis` tells which object of a pair stands on the other; None if unknown. `middles_m` has the middle of the box
+    around each object [m], world. Sessions give it for all objects, those without a body included.
     """
 
     bodies: Mapping[str, Body]
     contacts: Sequence[Contact] = field(default_factory=tuple)
     poses: Mapping[str, Pose] = field(default_factory=dict)
     up_axis: UpAxis | None = None
+    middles_m: Mapping[str, Vector] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         bodies = self.bodies
@@ -199,6 +202,14 @@ class PropagationModel(Protocol):
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands, /) -> PropagationField:
         """Prepare the field of a whole scene, over as many contacts as the model allows."""
         ...
+
+
+def follows_poses(model: object) -> bool:
+    """Return True if a model declares that its gains depend on where objects are, also without contact.
+
+    A session prepares such a model after every move, and passes it all objects.
+    """
+    return bool(getattr(model, "follows_poses", False))
 
 
 @runtime_checkable

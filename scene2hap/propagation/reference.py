@@ -27,6 +27,7 @@ from scene2hap.propagation.protocol import (
     ExpectantField,
     PropagationField,
     PropagationModel,
+    follows_poses,
 )
 from scene2hap.scene.pose import Pose
 
@@ -59,6 +60,11 @@ class FeltNear:
     def follows_outlines(self) -> bool:
         """Whether the model follows outlines."""
         return getattr(self.model, "follows_outlines", False)
+
+    @property
+    def follows_poses(self) -> bool:
+        """Whether the model's gains depend on poses."""
+        return follows_poses(self.model)
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> PropagationField:
         """Prepare the model's field and scale it. Raises, warns: see the model."""

@@ -17,7 +17,7 @@ from scene2hap.haptics import ActuatorProfile, Bands
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.exponential_plate import ExponentialPlate
-from scene2hap.propagation.protocol import CoupledModel, PropagationModel
+from scene2hap.propagation.protocol import CoupledModel, PropagationModel, follows_poses
 
 MIN_RAMP_S = 0.010
 """Shortest ramp of a gain change; see `scene2hap.render.mixer`."""
@@ -43,7 +43,8 @@ class SkipConfig(Settings):
 
     docs/playing.md has the bound of each; `SessionStats.skipped` counts the skipped work.
 
-    unreachable : objects that no source reaches over contacts are left out of the model's input and are not evaluated.
+    unreachable : objects that no source reaches over contacts are left out of the model's input and are not evaluated;
+        none are for a model that follows poses.
     below_threshold : sources that are not felt at a hand are left out of its mix.
     silent_bands : bands below -140 dB, and loops whose gains are all 0, are not mixed.
     idle_hands : hands that touch nothing are not computed.
@@ -146,6 +147,11 @@ class SessionConfig(Settings):
         if actuator is None or "actuator" in self.model_fields_set:
             return self
         return self.model_copy(update={"actuator": actuator})
+
+    @property
+    def skips_unreachable(self) -> bool:
+        """True if objects that no source reaches over contacts are skipped."""
+        return self.skip.unreachable and not follows_poses(self.propagation)
 
     @property
     def prepares_impacts(self) -> bool:

@@ -22,7 +22,7 @@ from scene2hap.common.html_tables import html_table
 from scene2hap.propagation.exponential_plate import ExponentialPlate, PathCosts
 from scene2hap.propagation.live import PathCostField
 from scene2hap.propagation.paths.traced_paths import Leg, PathsToPoint, Point
-from scene2hap.propagation.protocol import Carrier, CarryingField
+from scene2hap.propagation.protocol import Carrier, CarryingField, follows_poses
 from scene2hap.session.audibility import NOWHERE
 from scene2hap.session.frame import HapticFrame, Touch
 from scene2hap.session.hand_gains import TouchGains
@@ -116,8 +116,9 @@ class Explanation:
     """Report of the vibration at one hand, as `HapticSession.explain` returns it. `print(report.text)` shows it.
 
     `felt` has the sources that arrive, the strongest first. `impacts` has the impacts of the last second, the latest
-    first. `is_current` is false while a worker prepares a newer field. `reasons` are sentences that say why a touching
-    hand feels no source, or why the sink plays nothing; empty if it feels one.
+    first. `is_current` is false while a worker prepares a newer field, and if the model failed; `failure` then says
+    why. `reasons` are sentences that say why a touching hand feels no source, why the sink plays nothing, or why the
+    model failed; empty otherwise.
     """
 
     hand: str
@@ -126,12 +127,13 @@ class Explanation:
     is_current: bool = True
     impacts: tuple[Impact, ...] = ()
     reasons: tuple[str, ...] = ()
+    failure: str = ""
 
     @property
     def text(self) -> str:
         """The report in words, a line for each source."""
         on = f"touches {', '.join(self.touches)}" if self.touches else "touches nothing"
-        late = "" if self.is_current else " (the next field is still being prepared)"
+        late = "" if self.is_current or self.failure else " (the next field is still being prepared)"
         lines = [f"{self.hand} {on}{late}" + (":" if self.felt or self.impacts else " and feels nothing.")]
         struck = (f"  {item}, {decibels(item.felt[self.hand]):+z.1f} dB re full scale" for item in self.impacts)
         return "\n".join([*lines, *(f"  {item}" for item in (*self.reasons, *self.felt)), *struck])
@@ -181,9 +183,16 @@ class Explainer:
         self._paths: dict[tuple[str, Point], PathsToPoint] = {}
 
     def explain(
-        self, hand: str, touches: Sequence[Touch], frame: HapticFrame, *, is_current: bool, is_paused: bool
+        self,
+        hand: str,
+        touches: Sequence[Touch],
+        frame: HapticFrame,
+        *,
+        is_current: bool,
+        failure: str,
+        is_paused: bool,
     ) -> Explanation:
-        """Explain the gains of a hand in a frame with these touches."""
+        """Explain the gains of a hand in a frame with these touches. failure : see `Explanation`."""
         felt = []
         if touches and hand in frame.hands:
             gains = zip(frame.sources, frame.gains[frame.hands.index(hand)], strict=True)
@@ -197,8 +206,10 @@ class Explainer:
                 felt.append(self._felt(source_id, band, touches[loudest], float(each[loudest])))
         felt.sort(key=lambda item: -(item.gain_db + item.level_db))
         on = tuple(touch.object_id for touch in touches)
-        reasons = () if felt or not touches else tuple(self._reasons(set(on), is_paused=is_paused))
-        return Explanation(hand, on, tuple(felt), is_current, reasons=reasons)
+        reasons = [] if felt or not touches else [*self._reasons(set(on), is_paused=is_paused)]
+        if failure:
+            reasons.insert(0, failure)
+        return Explanation(hand, on, tuple(felt), is_current, reasons=tuple(reasons), failure=failure)
 
     def _reasons(self, on: set[str], *, is_paused: bool) -> Iterator[str]:
         """Yield sentences that say why a hand on these objects feels no source."""
@@ -215,7 +226,8 @@ class Explainer:
         ids = self._sources.ids
         reach = self._state.reach(ids)
         columns = frozenset[int]().union(*(reach.sources(object_id) for object_id in on))
-        near = [source_id for column, source_id in enumerate(ids) if column in columns or source_id in on]
+        needs_path = not follows_poses(self._model)
+        near = [x for column, x in enumerate(ids) if column in columns or x in on or not needs_path]
         if not near:
             yield "No source touches it, directly or over other objects."
             inside = [source_id for source_id in ids if any(self._is_inside(source_id, x) for x in on)]

@@ -128,8 +128,8 @@ class SessionStats:
     is current [s]; field_latency_s : time from a change to the use of the field that includes it [s]; fields_failed :
     preparations that the model refused, while the last field stayed in use; last_failure : the model's message;
     touches_off_surface : touches more than 5 cm off the box around their object, in the first 16 updates with touches
-    and in one of 16 later ones; impacts : impacts, reported or found; impacts_felt : impacts that a hand felt;
-    impacts_left_out : impacts too soon after another one, while too many others were played, or not prepared in time.
+    and in one of 16 later ones; impacts : impacts, reported, found, or both; impacts_felt : impacts that a hand felt;
+    impacts_left_out : impacts while too many others were played, or not prepared in time.
     """
 
     updates: int = 0

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from scene2hap.contact.graph import ContactChange
 from scene2hap.propagation.live import LiveField, PathCostField
-from scene2hap.propagation.protocol import Excitation
+from scene2hap.propagation.protocol import Excitation, follows_poses
 from scene2hap.session.audibility import SILENT, Audibility, CutoffCost
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
@@ -51,6 +51,7 @@ class HandFrames:
         self._felt: Felt = {}
         self._frame = self.silence()
         self._is_fresh = False
+        self._poses = state.poses if follows_poses(config.propagation) else None
         self._pending: list[ContactChange] = []
         self._must_request, self._are_sources_known = False, True
         self._find_reach()
@@ -66,8 +67,9 @@ class HandFrames:
             self._forget_sources()
         if sources_changed or self._bodies is not self._state.bodies:
             self._are_sources_known = False
+        is_new = self._is_moved() or bool(change)
         if not self._are_sources_known:
-            if change or sources_changed:
+            if is_new or sources_changed:
                 self._is_fresh = False
                 self._pending.append(change)
                 self._must_request = self._must_request or sources_changed or self._concerns_sources(change)
@@ -76,7 +78,7 @@ class HandFrames:
         if change.appeared or change.vanished:
             self._reach.follow(change)
             self._n_unreachable = None
-        if not change:
+        if not is_new:
             return
         if concerns_sources or self._reach.concerns(change):
             self._is_fresh = False
@@ -159,7 +161,10 @@ class HandFrames:
         levels = self._levels_at(hand)
         gains = self._touch_gains(self.keeper.for_points(self._sources.ids, self._reach, len(touches)), Counts())
         explainer = Explainer(self._state, self._sources, self._config.propagation, self.keeper.field, gains, levels)
-        return explainer.explain(hand, touches, self._frame, is_current=self.keeper.is_current, is_paused=is_paused)
+        keeper = self.keeper
+        return explainer.explain(
+            hand, touches, self._frame, is_current=keeper.is_current, failure=keeper.failure, is_paused=is_paused
+        )
 
     def would_feel(self, touches: Sequence[Touch]) -> NDArray[np.float64]:
         """Gains (n_touches, n_sources, n_bands) [-] of each touch alone, 0 below -140 dB; no touch is counted."""
@@ -186,7 +191,14 @@ class HandFrames:
         )
 
     def _concerns_sources(self, change: ContactChange) -> bool:
-        return not self._config.skip.unreachable or self._reach.concerns(change)
+        return not self._config.skips_unreachable or self._reach.concerns(change)
+
+    def _is_moved(self) -> bool:
+        """Whether any object was moved, added or removed since the last call; False unless the model follows poses."""
+        if self._poses is None:
+            return False
+        before, self._poses = self._poses, self._state.poses
+        return self._poses != before
 
     def _catch_up(self) -> None:
         """Apply the additions and removals of objects and sources since the last frame."""
@@ -216,7 +228,7 @@ class HandFrames:
         self._count_unreachable()
 
     def _count_unreachable(self) -> None:
-        if self._config.skip.unreachable:
+        if self._config.skips_unreachable:
             if self._n_unreachable is None:
                 self._n_unreachable = len(self._bodies) - self._reach.n_without(self._bodiless)
             self._counts.unreachable_objects += self._n_unreachable
@@ -307,6 +319,6 @@ class HandFrames:
             (len(self._sources.ids), config.bands.n_bands),
             self._reach,
             counts,
-            skips_unreachable=config.skip.unreachable,
+            skips_unreachable=config.skips_unreachable,
             limit=None if config.gain_limit_db is None else 10 ** (config.gain_limit_db / 20),
         )

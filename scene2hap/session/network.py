@@ -12,6 +12,7 @@ from scene2hap.bundle.override import USER
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.protocol import Body, Excitation
+from scene2hap.scene.geometry import Vector
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import DominantSurface
@@ -117,6 +118,29 @@ class PlatePoses(Mapping[str, Pose]):
 
     def __len__(self) -> int:
         return sum(1 for _ in self)
+
+
+class Middles(Mapping[str, Vector]):
+    """Middles of the boxes around all objects [m], world, each computed on access."""
+
+    def __init__(self, objects: Mapping[str, SceneObject], poses: Mapping[str, Pose]) -> None:
+        self._objects, self._poses = objects, poses
+
+    def __getitem__(self, object_id: str) -> Vector:
+        ((x, y, z),) = self._poses[object_id].to_world([own_middle_m(self._objects[object_id])]).tolist()
+        return x, y, z
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._objects)
+
+    def __len__(self) -> int:
+        return len(self._objects)
+
+
+def own_middle_m(item: SceneObject) -> Vector:
+    """Middle of the box around an object, in its own frame [m]."""
+    x, y, z = item.geometry.mesh.bounds_m.mean(axis=0).tolist()
+    return x, y, z
 
 
 @lru_cache(maxsize=4096)

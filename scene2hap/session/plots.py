@@ -60,7 +60,7 @@ def plot_felt(
     figure.colorbar(image, ax=axes, extend="min", label="level at the hand [dB re the source itself]", shrink=0.9)
     draw_edges(axes, view, colors=LINES, linewidths=0.5, zorder=2)
     _draw_legend(axes, view, source_id, has_silence=bool((np.isnan(level_db) & (view.top != NOTHING)).any()))
-    late = "" if is_current else "\n(of an earlier scene state: the next field is still being prepared)"
+    late = "" if is_current else "\n(of an earlier scene state)"
     below = ", below the ceiling" if view.is_uncovered else ""
     set_title(axes, f"{plain(source_id)}, level at the hand '{plain(hand, 16)}'{below}{late}")
     return figure

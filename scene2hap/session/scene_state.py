@@ -17,7 +17,7 @@ from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import RemovedIds
 from scene2hap.session.impacts.slams import Way, edge_that_meets
-from scene2hap.session.network import Corners, PlatePoses, body_of, rigid_body_of
+from scene2hap.session.network import Corners, Middles, PlatePoses, body_of, own_middle_m, rigid_body_of
 from scene2hap.session.reach import Reach, reach_over
 
 Thing = TypeVar("Thing")
@@ -99,9 +99,8 @@ class SceneState:
         return change
 
     def middle_m(self, object_id: str) -> tuple[float, float, float]:
-        """Centre of the box around an object, in its own frame [m]."""
-        x, y, z = self.objects[object_id].geometry.mesh.bounds_m.mean(axis=0).tolist()
-        return x, y, z
+        """Middle of the box around an object, in its own frame [m]."""
+        return own_middle_m(self.objects[object_id])
 
     def edge_that_meets(self, object_id: str, way: Callable[[str], Way]) -> tuple[str, Vector] | None:
         """Return what a hinge holds an object on, and where the two meet: see `slams.edge_that_meets`; None if they do
@@ -146,18 +145,19 @@ class SceneState:
         """
         objects, bodies, poses, junctions = self.objects, self.bodies, self.poses, dict(self.graph.junctions)
         spelling, corners, up_axis = self._spelling, self._corners, self._scene.up_axis
+        middles_m = Middles(objects, poses)
 
         def put_together(near: Collection[str]) -> ModelInput:
             if source_ids is None:
                 everywhere = PlatePoses(objects, bodies, poses, corners)
-                return ModelInput(ContactNetwork(bodies, spelling.of(junctions), everywhere, up_axis))
+                return ModelInput(ContactNetwork(bodies, spelling.of(junctions), everywhere, up_axis, middles_m))
             reach = reach_over(junctions, {*bodies, *source_ids}, source_ids)
             everything = reach.objects
             reached = reach.objects_near(near) or everything
             among = {object_id: body for object_id, body in bodies.items() if object_id in reached}
             within = {pair: one for pair, one in junctions.items() if pair[0] in reached}
-            places = PlatePoses(objects, among, poses, corners)
-            network = ContactNetwork(among, spelling.of(within), places, up_axis)
+            corners_of = PlatePoses(objects, among, poses, corners)
+            network = ContactNetwork(among, spelling.of(within), corners_of, up_axis, middles_m)
             return ModelInput(network, None if len(reached) == len(everything) else reached)
 
         return put_together

@@ -100,6 +100,26 @@ def moved_points(found: Any, _: str, points: NDArray[np.float64]) -> Any:
     return found
 
 
+class Bodies(FullPropagation):
+    """Reads the body of every source."""
+
+    def prepare(self, network: Any, excitations: Any, bands: Any) -> Any:
+        _ = [network.bodies[one.source_id] for one in excitations]
+        return super().prepare(network, excitations, bands)
+
+
+class Corners(FullPropagation):
+    """Takes the corner of a plate for the place of an object."""
+
+    def prepare(self, network: Any, excitations: Any, bands: Any) -> Any:
+        _ = [network.poses[one.source_id] for one in excitations if one.source_id != "fan"]
+        return super().prepare(network, excitations, bands)
+
+
+def known_alone(found: Any, key: str, _: Any) -> Any:
+    return found * {"table": 1.0, "phone": 1.0, "shelf": 1.0}[key]
+
+
 MODELS: list[tuple[Any, str]] = [
     (object(), "object has no 'prepare'"),
     (NoSources(), "NoSources.prepare gave no PropagationField: object has no 'source_ids'"),
@@ -116,6 +136,12 @@ MODELS: list[tuple[Any, str]] = [
     (Model(lambda found, *_: found + 1e-6), "a source is felt on itself by 1.000001; it must be 1"),
     (Reused(), "Reused: a query changes the array of the one before"),
     (Forgetful(), "Forgetful: preparing another scene changes a field"),
+    (Model(lambda found, key, _: found + 0.2 * (key == "shelf")), "it must be 0, or the class declare follows_poses"),
+    (Bodies(), "Bodies.prepare raised KeyError('fan') at " + __file__),
+    (Bodies(), "; source 'fan' has no body; a source may have none and touch nothing"),
+    (Corners(), "; source 'phone' may have no pose"),
+    (Model(known_alone), "; object 'cup' is in no network; a field must answer there too"),
+    (Model(lambda *_: 1 / 0), "at 'table' raised ZeroDivisionError("),
     (FromAToB(lambda found, *_: found), "with a and b of each contact swapped"),
 ]
 

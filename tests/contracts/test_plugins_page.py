@@ -87,6 +87,19 @@ def test_propagation_model(scene: SceneSnapshot) -> None:
     assert session.update(touches=[ON_TABLE]).gain("left", "smartphone") == 0.5
 
 
+def test_sound_in_air_follows_a_source_that_touches_nothing(scene: SceneSnapshot) -> None:
+    names: dict[str, Any] = {}
+    (code,) = re.findall(r"<!-- ci: run -->\n```python\n(.*?)```", PAGE, re.DOTALL)
+    exec(code, names)
+    check_propagation_model(names["SoundInAir"]())
+    session = HapticSession(scene, bake(scene), {"propagation": names["SoundInAir"]()})
+    for height_m in (0.4, 0.8):
+        session.update({"smartphone": Pose((0.3, 0.72 + height_m, 0.0))}, [ON_TABLE])
+        assert session.wait_prepared(60)
+        gain = session.update(touches=[ON_TABLE]).gain("left", "smartphone")
+        assert gain == pytest.approx(0.1 / height_m, rel=1e-6)
+
+
 def test_actuator(scene: SceneSnapshot) -> None:
     make = part("devices", "LevelMeter")
     check_actuator_sink(make)

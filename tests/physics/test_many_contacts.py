@@ -143,7 +143,7 @@ def test_a_session_plays_on_without_a_field_that_does_not_fit(monkeypatch: pytes
     with HapticSession(scene, bake(scene), {"propagation": "modal_plate"}) as session:
         touches = [Touch("left", "washing machine", (0.5, 0.85, 0.0)), Touch("right", "wooden floor", (0.0, 0.0, 0.0))]
         session.update({}, touches)
-        with pytest.warns(RuntimeWarning, match="a field could not be prepared.*would take"):
+        with pytest.warns(RuntimeWarning, match="The model could not prepare a field.*would take"):
             assert session.wait_prepared(60)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")

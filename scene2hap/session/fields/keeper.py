@@ -11,8 +11,8 @@ from collections.abc import Callable, Mapping, Sequence
 from threading import Thread
 from typing import Protocol
 
+from scene2hap.common.failures import failure_of
 from scene2hap.common.warning import warn_of
-from scene2hap.errors import Scene2HapError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.controls import NoPropagation
 from scene2hap.propagation.live import LiveField, LiveModel, SucceedingField, TouchedPoint
@@ -23,6 +23,7 @@ from scene2hap.propagation.protocol import (
     ExpectantField,
     PropagationField,
     PropagationModel,
+    follows_poses,
 )
 from scene2hap.propagation.reference import FeltNear
 from scene2hap.session.config import SessionConfig
@@ -55,6 +56,11 @@ class Keeper(Protocol):
     @property
     def is_current(self) -> bool:
         """Whether the field in use is that of the newest scene state."""
+        ...
+
+    @property
+    def failure(self) -> str:
+        """A sentence: why there is no newer field, though none is being prepared; empty if the model did not fail."""
         ...
 
     @property
@@ -91,7 +97,8 @@ class FieldKeeper:
     """Prepares fields for the present scene. The last field stays in use until a newer one is ready.
 
     Parameters: is_background : whether a worker prepares, beginning now; until the first field is ready, each source is
-    felt on itself alone; skips_unreachable : leave objects that no source reaches out of the model's input.
+    felt on itself alone; skips_unreachable : leave objects that no source reaches out of the model's input. An outdated
+    field is silent for sources without a path, unless the model follows poses.
     Raises: the errors of the model, if no worker prepares.
     """
 
@@ -106,7 +113,7 @@ class FieldKeeper:
         skips_unreachable: bool,
     ) -> None:
         self._worker = FieldWorker(model, bands)
-        self._state = state
+        self._state, self._follows_poses = state, follows_poses(model)
         # For the fields that the keeper holds: only the garbage collector could free a cycle of strong references, and
         # a game may switch it off, or call `gc.freeze`.
         self._weak: FieldKeeper = weakref.proxy(self)
@@ -117,7 +124,7 @@ class FieldKeeper:
         self._n_answered = self._n_ordered = self._n_put = 0
         self._n_prepared = self._n_failed = 0
         self._last_failure, self._latency_s = "", 0.0
-        self._is_refused = False
+        self._failure, self._is_refused = "", False
         before = self._situation(0, excitations)
         self._whole = Prepared(NoPropagation().prepare(ContactNetwork({}), excitations, bands), before)
         self.in_use: Prepared = self._whole
@@ -134,6 +141,11 @@ class FieldKeeper:
     def is_current(self) -> bool:
         """Whether the field in use was prepared for the newest scene state."""
         return self.in_use.situation is self._requested
+
+    @property
+    def failure(self) -> str:
+        """See `Keeper`."""
+        return self._failure if self._is_refused else ""
 
     @property
     def stats(self) -> SessionStats:
@@ -186,7 +198,15 @@ class FieldKeeper:
 
         def as_now(one: Prepared) -> LastField:
             then, situation = one.situation.poses, one.situation
-            return LastField(one.field, then, now, source_ids, n_bands, reach, lambda: situation is keeper._requested)
+            return LastField(
+                one.field,
+                then,
+                now,
+                source_ids,
+                n_bands,
+                reach,
+                lambda: keeper._follows_poses or situation is keeper._requested,
+            )
 
         field = FieldInUse(source_ids, as_now, note)
         field.use(self.in_use, self._whole)
@@ -248,12 +268,12 @@ class FieldKeeper:
 
     def _note(self, problem: Exception) -> None:
         self._n_failed += 1
-        self._last_failure = str(problem) if isinstance(problem, Scene2HapError) else repr(problem)
+        self._last_failure = failure_of(problem)
         instead = "the last one plays on" if self._n_prepared else "each source is felt on itself alone"
-        warning = f"a field could not be prepared, so that {instead}: {self._last_failure}"
+        self._failure = f"The model could not prepare a field, so that {instead}: {self._last_failure}"
         # Once until a field is prepared again, since a game may change its scene in every frame.
         if not self._is_refused:
-            warn_of(warning, FieldWarning)
+            warn_of(self._failure, FieldWarning)
         self._is_refused = True
 
     def _put(self, order: Situation | Sign) -> None:
@@ -271,6 +291,7 @@ class LiveKeeper:
     """
 
     is_current = True
+    failure = ""
 
     def __init__(self, model: LiveModel, bands: Bands, state: SceneState, excitations: Sequence[Excitation]) -> None:
         self._model, self._bands, self._state = model, bands, state
@@ -294,7 +315,7 @@ class LiveKeeper:
                 field.succeed(self.field)
             self._made_for = (bodies, excitations)
             self.field: LiveField = field
-            self._mapped = None
+        self._mapped = None
 
     def order(self) -> None:
         """Do nothing: a live field needs no preparation."""
@@ -334,7 +355,7 @@ def keeper_of(config: SessionConfig, state: SceneState, excitations: Sequence[Ex
         return LiveKeeper(model, bands, state, excitations)
     if config.reference == "felt_near":
         model = FeltNear(model)
-    is_background, skips_unreachable = config.prepare == "background", config.skip.unreachable
+    is_background, skips_unreachable = config.prepare == "background", config.skips_unreachable
     return FieldKeeper(
         model, bands, state, excitations, is_background=is_background, skips_unreachable=skips_unreachable
     )

@@ -30,7 +30,8 @@ class LastField:
     to the field are silent. While the field is outdated, sources without a path to the touched object are silent too.
 
     Parameters: then : poses for which the field was prepared; now : returns the present pose of an object; reach : the
-    present groups of connected objects; is_current : whether the field was prepared for the present state.
+    present groups of connected objects; is_current : whether the field was prepared for the present state,
+    or does not depend on paths.
     """
 
     most: float = math.inf

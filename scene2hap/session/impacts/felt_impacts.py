@@ -96,6 +96,14 @@ class Strike:
     impulse_n_s: float | None = None
 
 
+@dataclass(frozen=True)
+class _Report:
+    """The first report of an impact. `is_settled` is true if it was played, or left out."""
+
+    at_frame: int
+    is_settled: bool
+
+
 class Impacts:
     """Finds landings, and turns impacts into bursts of a session's mix.
 
@@ -116,7 +124,8 @@ class Impacts:
         self._field, self._user_factor = field, user_factor
         followed = (state.graph, state.middle_m, state.edge_that_meets, config.control_period_s)
         self._landings = Landings(*followed) if config.impacts else None
-        self._last: dict[tuple[str, str | None], int] = {}
+        self._last: dict[frozenset[str | None], _Report] = {}
+        self._updated_at = 0
         self._looked_at: object = None
         self._point_field: PointField | None = None
         # Several workers, since preparing a scene in advance, or for an impact, may take longer than another impact may
@@ -134,7 +143,6 @@ class Impacts:
     ) -> Impact:
         """Play an impact at the hands that touch something."""
         self.take_late()
-        self.n_reported += 1
         impact, burst = self._impact(strike, at_frame)
         if self._is_admitted(strike, felt, at_frame):
             self._play(impact, burst, felt, hands, profile)
@@ -157,11 +165,11 @@ class Impacts:
         self.take_late()
         if self._landings is not None and (moved or self._landings.follow_any):
             for one in self._landings.look(moved or {}, at_frame / self._config.sample_rate_hz):
-                self.n_reported += 1
                 landing = Strike(one.onto, one.point_m, one.object_id, one.speed_m_s)
                 # Checked first, so that nothing is computed for a skipped impact.
-                if self._is_admitted(landing, felt, at_frame):
+                if self._is_admitted(landing, felt, at_frame, self._updated_at):
                     self._play(*self._impact(landing, at_frame), felt, hands, profile)
+        self._updated_at = at_frame
         if self._ahead is not None:
             self._ahead.expect({touch.object_id for touches in felt.values() for touch in touches})
 
@@ -289,19 +297,30 @@ class Impacts:
     def _peak(self, waves: list[Samples], weights: Floats, decays_s: Floats) -> float:
         return peak_of(waves, weights, decays_s, self._config.sample_rate_hz)
 
-    def _is_admitted(self, strike: Strike, felt: Felt, at_frame: int) -> bool:
-        """Whether an impact may be felt. If so, it is recorded as the last impact of its pair."""
-        if not felt or self._playback.is_paused or not self._user_factor():
-            return False
-        pair = (strike.object_id, strike.with_object)
-        is_new = at_frame - self._last.get(pair, -math.inf) >= LEAST_INTERVAL_S * self._config.sample_rate_hz
-        if not is_new or self._playback.n_bursts >= MOST_PLAYING or len(self._waiting) >= MOST_WAITING:
-            self.n_left_out += 1
-            return False
-        self._last.pop(pair, None)
-        self._last[pair] = at_frame
+    def _is_admitted(self, strike: Strike, felt: Felt, at_frame: int, since: float = math.inf) -> bool:
+        """Whether an impact may be felt. Counts it, unless it is another report of the last impact of its pair.
+
+        An impact that nobody could feel may be reported again, since a hand may arrive in the same frame.
+        Parameters: since : a report from then on is of the same impact; for a landing the update before, since a
+        session often finds it one update after a game's physics does.
+        """
+        # Without an order, since a game may report "cup on table" and the session find "table on cup".
+        pair = frozenset((strike.object_id, strike.with_object))
+        last = self._last.pop(pair, None)
+        soonest = LEAST_INTERVAL_S * self._config.sample_rate_hz
+        if last is None or (at_frame - last.at_frame >= soonest and last.at_frame < since):
+            self.n_reported += 1
+            last = _Report(at_frame, is_settled=False)
+        was_settled = last.is_settled
+        may_be_felt = bool(felt) and not self._playback.is_paused and bool(self._user_factor())
+        self._last[pair] = _Report(last.at_frame, is_settled=was_settled or may_be_felt)
         while len(self._last) > KEPT:
             del self._last[next(iter(self._last))]
+        if was_settled or not may_be_felt:
+            return False
+        if self._playback.n_bursts >= MOST_PLAYING or len(self._waiting) >= MOST_WAITING:
+            self.n_left_out += 1
+            return False
         return True
 
     def _capped(self, gains: Floats) -> Floats:

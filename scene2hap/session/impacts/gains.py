@@ -7,15 +7,17 @@ are relative to that point, so that the mass of the source and the stiffness of 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections import ChainMap
+from collections.abc import Callable, MutableMapping, Sequence
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.live import PointField, TouchedPoint
-from scene2hap.propagation.protocol import Excitation, PropagationModel
+from scene2hap.propagation.protocol import Excitation, PropagationModel, follows_poses
 from scene2hap.scene.objects import Contact
 from scene2hap.session.scene_state import SceneState
 
@@ -57,7 +59,8 @@ def struck_later(
 ) -> Callable[[], Floats]:
     """Return a function that prepares the model and returns these gains. It may be called later, in any thread."""
     # An object that touches no other of known material is in no network, so the whole scene is prepared for it.
-    put_together = state.network([object_id] if state.touches_a_body(object_id) else None)
+    is_whole = follows_poses(model) or not state.touches_a_body(object_id)
+    put_together = state.network(None if is_whole else [object_id])
     touched = {touched_id for hand in hands for touched_id, _ in hand}
 
     def prepared() -> Floats:
@@ -67,7 +70,10 @@ def struck_later(
         excitations = [
             Excitation(striker, f, f, _STRIKER_KG) for striker, f in zip(strikers, frequencies_hz.tolist(), strict=True)
         ]
-        with_them = replace(network, contacts=(*network.contacts, *contacts))
+        # A chain computes no other middle; a cast, since it is typed for writing.
+        others_m = cast("MutableMapping[str, Point]", network.middles_m)
+        middles_m = ChainMap(dict.fromkeys(strikers, point_m), others_m)
+        with_them = replace(network, contacts=(*network.contacts, *contacts), middles_m=middles_m)
         field = model.prepare(with_them, excitations, AROUND)
         itself = field.attenuation(object_id, np.array([point_m]))[0, :, 0]
         gains = np.zeros((len(hands), len(frequencies_hz)))

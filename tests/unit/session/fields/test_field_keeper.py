@@ -1,5 +1,6 @@
 """Fields prepared on a worker while the last field stays in use."""
 
+import re
 import subprocess
 import sys
 import threading
@@ -303,6 +304,27 @@ def test_a_model_that_keeps_failing_is_warned_of_once_at_the_line_of_the_game() 
         assert s.wait_prepared(SECONDS)
 
 
+def test_an_error_of_a_guest_is_explained_with_the_line_that_raised_it() -> None:
+    class Model:
+        def prepare(self, network: Any, excitations: Any, bands: Bands) -> Field:
+            return self._found({})
+
+        def _found(self, places: dict[str, Field]) -> Field:
+            return places["drone"]
+
+    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": Model()})
+    line = Model._found.__code__.co_firstlineno + 1
+    message = re.escape(f"felt on itself alone: KeyError('drone') at {__file__}:{line}")
+    with pytest.warns(FieldWarning, match=message):
+        assert s.wait_prepared(SECONDS)
+    s.update(touches=[ON_TABLE])
+    explained = s.explain("left")
+    assert explained.failure == explained.reasons[0]
+    assert re.search(message, explained.text)
+    assert "being prepared" not in explained.text
+    assert not explained.is_current
+
+
 def test_failing_model_keeps_the_last_field() -> None:
     s, model = gated()
     gains = s.update(touches=[ON_TABLE]).gains
@@ -314,11 +336,14 @@ def test_failing_model_keeps_the_last_field() -> None:
     np.testing.assert_array_equal(s.update(touches=[ON_TABLE]).gains, gains)
     assert s.stats.fields_failed == 1
     assert s.stats.last_failure == "the phone is too thick"
+    assert s.explain("left").felt
+    assert "the last one plays on: the phone is too thick" in s.explain("left").failure
     assert s.stats.field_age_s > 0
     model.problem = None
     s.update(shifted(0.3))
     assert s.wait_prepared(SECONDS)
     assert s.stats.field_age_s == 0
+    assert s.explain("left").failure == ""
 
 
 def test_failing_model_without_worker_raises_in_update() -> None:
