@@ -139,6 +139,16 @@ def test_a_pause_of_more_than_a_tenth_of_a_second_delays_no_landing_after_it() -
     assert lands_in(iter([*steps[:3], *[steps[2]] * 11, *steps[3:]])) == lands_in(iter(steps)) + 11
 
 
+@pytest.mark.parametrize("held", range(1, 12))
+@pytest.mark.parametrize("carried_m", [(0.0, -0.1), (0.3, 0.0), (0.2, -0.05)])
+def test_object_that_is_held_still_before_it_falls_lands_as_early(carried_m: tuple[float, float], held: int) -> None:
+    """A hold is no gap between steps of slow physics."""
+    steps = [*fall(9.81 * (12.9 * PERIOD_S) ** 2 / 2, PERIOD_S)]  # so that its last step is almost whole
+    (x, y, z), *_ = steps
+    brought = [(x + carried_m[0] * i / 15, y + carried_m[1] * i / 15, z) for i in range(15, 0, -1)]
+    assert lands_in(iter([*brought, *[steps[0]] * held, *steps])) == len(brought) + held + lands_in(iter(steps))
+
+
 def test_stopped_clock_counts_as_the_usual_frame_time() -> None:
     (landing,) = landings_of(fall(0.4, PERIOD_S), clock=False)
     assert landing.speed_m_s == pytest.approx(math.sqrt(2 * 9.81 * 0.4), rel=0.3)
