@@ -39,6 +39,9 @@ HEAD_ON = 0.5
 BRAKES_M_S2, BRAKES_M_S = 10.0, 0.2
 """Largest deceleration by a hand that carries, lowers or shakes an object, and largest loss of speed by a hand from one
 step to the next; assumed. Below 50 Hz the latter is the smaller bound, since a short fall lasts for few frames."""
+WHOLE = 1.5
+"""Slowest landing, as a multiple of this loss. One that is slower would be found or not by the time in a frame at which
+the objects meet."""
 ROLLS = 0.25
 """Smallest share of an object's middle in the approach of its part at the contact: the middle of a rolling object does
 not approach the floor."""
@@ -205,8 +208,9 @@ class Landings:
     def _landing(self, object_id: str, track: MotionTrack, time_s: float) -> list[Landing]:
         """The landing on the touched object that was approached the fastest, of equal ones the first by id; empty if
         there is none."""
-        run = track.run()
-        (first, _), (before, before_s), (last, end_s) = run[0], run[-2], run[-1]
+        run, earlier = track.run(), track.run(1)  # the two may have met early in the last step
+        steps = sorted({*earlier, *run})
+        (first, _), (before, before_s), (last, end_s) = steps[0], steps[-2], steps[-1]
         best, most_m, speed, now = None, LEAST_TRAVEL_M, 0.0, self._n_updates
         # The step after a long frame is short, without being slow. The ratio is unknown if the clock stands still.
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
@@ -230,11 +234,9 @@ class Landings:
                 middle_m = self._middle_nearing_m(object_id, other, point, normal, first, last)
                 if onward > most or middle_m < ROLLS * closing:
                     continue
-                if self._stops_suddenly(object_id, other, point, normal, [*run, (now, time_s)]):
+                if self._stops_suddenly(object_id, other, point, normal, [*steps, (now, time_s)]):
                     best, most_m = (other, point), closing
-                    # The two may have met early in the last step.
-                    runs = (run, track.run(1))
-                    speed = max(self._speed(object_id, other, point, normal, one) for one in runs)
+                    speed = max(self._speed(object_id, other, point, normal, one) for one in (run, earlier))
         if best is None:
             return []
         return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
@@ -266,14 +268,19 @@ class Landings:
     def _stops_suddenly(
         self, object_id: str, other: str, point_m: Vector, normal: Vector, run: list[tuple[int, float]]
     ) -> bool:
-        """Whether an object lost more speed towards another, from one step to the next, than by a hand."""
-        speed, lasted_s = -math.inf, 0.0
+        """Whether an object lost more speed towards another than by a hand: from one step to the next, or from the last
+        whole step until it stood still, half a step of this and the partial one after it."""
+        steps: list[tuple[float, float]] = []
         for (since, begin_s), (until, end_s) in pairwise(run):
             lasts_s = end_s - begin_s if end_s > begin_s else (until - since) * self._period_s
-            now = dot(self._nearing(object_id, other, point_m, since, until), normal) / lasts_s
-            if speed - now > min(BRAKES_M_S2 * (lasted_s + lasts_s) / 2, BRAKES_M_S):
+            steps.append((dot(self._nearing(object_id, other, point_m, since, until), normal) / lasts_s, lasts_s))
+        fastest, stands_still = 0.0, steps[-1][0] == 0
+        for i, ((speed, lasted_s), (now, lasts_s)) in enumerate(pairwise(steps), 3):
+            most = min(BRAKES_M_S2 * (lasted_s + lasts_s) / 2, BRAKES_M_S)
+            fastest = max(fastest, speed)
+            is_last_whole = i == len(steps) and stands_still
+            if fastest > WHOLE * most and (speed - now > most or (is_last_whole and speed > WHOLE * most)):
                 return True
-            speed, lasted_s = now, lasts_s
         return False
 
     def _middle_nearing_m(

@@ -2,7 +2,8 @@
 
 The motion is that of the middle of the object's box, since its origin may be on a hinge. Physics may run more slowly
 than the frames, so that some frames have no step. A motion has stopped only if the longest of its latest gaps between
-two steps has passed without a further step.
+two steps has passed without a further step. An object that is held still before it falls leaves a gap too, but begins
+with another step than its last one.
 """
 
 from __future__ import annotations
@@ -22,6 +23,9 @@ LONGEST_GAP_S, MOST_GAP = 0.12, 12
 """Longest time, and number of updates, from one step of a motion to the next: physics at 10 Hz; assumed."""
 GAP_DECAYS = 0.1
 """Decrease of the remembered gap with each step [updates]: at 60 Hz, physics at 50 Hz misses every sixth frame."""
+UNEVEN = 3
+"""Largest ratio of two gaps of slow physics: at 60 Hz, physics at 30 Hz has a step in every second frame, or after one
+and three if these are uneven. A longer gap was a hold."""
 
 STILL: Vector = (0.0, 0.0, 0.0)
 """The step of an object that does not move [m]."""
@@ -112,10 +116,13 @@ class MotionTrack:
             self.turn(last)
             self.gap, self.goes_on = 1.0, False
         else:
-            gap = self.gap - GAP_DECAYS
-            self.gap = gap if gap > waited else float(waited)
             (x, y, z), (u, v, w) = step_m, self.step_m
-            if x * u + y * v + z * w <= 0:
+            onward, before = x * u + y * v + z * w, u * u + v * v + w * w
+            gap = self.gap - GAP_DECAYS
+            if LEFT * before < onward < before / LEFT:
+                gap = min(max(gap, waited), UNEVEN * waited)
+            self.gap = gap if gap > 1.0 else 1.0
+            if onward <= 0:
                 stopped_m = self.stopped_m
                 self.turn(last)
                 self.goes_on = stopped_m is not None and dot(step_m, stopped_m) > LEFT * dot(stopped_m, stopped_m)

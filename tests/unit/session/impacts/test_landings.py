@@ -100,6 +100,16 @@ def test_a_landing_early_in_a_frame_is_as_fast_as_one_late_in_it(begins: float, 
     assert found.speed_m_s == pytest.approx(1.5)
 
 
+@pytest.mark.parametrize(("frames_hz", "least_m_s"), [(30, 0.3), (60, 0.25), (90, 0.167), (120, 0.125)])
+def test_slowest_landing_does_not_depend_on_the_time_in_a_frame(frames_hz: int, least_m_s: float) -> None:
+    for speed, n_landings in ((0.95 * least_m_s, 0), (1.05 * least_m_s, 1)):
+        n_steps = math.ceil(0.05 / speed * frames_hz)
+        for begins in np.arange(0.025, 1.0, 0.05).tolist():
+            times = [(step + begins - n_steps) / frames_hz for step in range(n_steps + 5)]
+            path = ((0.0, RESTS_M + max(0.0, -speed * t), 0.0) for t in times)
+            assert len(landings_of(path, period_s=1 / frames_hz)) == n_landings
+
+
 @pytest.mark.parametrize("names", ["abcd", "efgh", "ijkl", "mnop", "qrst", "uvwx"])
 def test_object_that_lands_on_several_lands_on_the_first_by_id(names: str) -> None:
     """The order of the graph's contacts depends on the hash seed, which differs in each run of Python."""
@@ -137,6 +147,16 @@ def test_a_pause_of_more_than_a_tenth_of_a_second_delays_no_landing_after_it() -
     """It is no gap between steps of slow physics. After more than 12 frames the motion would be forgotten."""
     steps = [*fall(9.81 * (20.9 * PERIOD_S) ** 2 / 2, PERIOD_S)]
     assert lands_in(iter([*steps[:3], *[steps[2]] * 11, *steps[3:]])) == lands_in(iter(steps)) + 11
+
+
+@pytest.mark.parametrize("held", range(1, 12))
+@pytest.mark.parametrize("carried_m", [(0.0, -0.1), (0.3, 0.0), (0.2, -0.05)])
+def test_object_that_is_held_still_before_it_falls_lands_as_early(carried_m: tuple[float, float], held: int) -> None:
+    """A hold is no gap between steps of slow physics."""
+    steps = [*fall(9.81 * (12.9 * PERIOD_S) ** 2 / 2, PERIOD_S)]  # so that its last step is almost whole
+    (x, y, z), *_ = steps
+    brought = [(x + carried_m[0] * i / 15, y + carried_m[1] * i / 15, z) for i in range(15, 0, -1)]
+    assert lands_in(iter([*brought, *[steps[0]] * held, *steps])) == len(brought) + held + lands_in(iter(steps))
 
 
 def test_stopped_clock_counts_as_the_usual_frame_time() -> None:
