@@ -67,8 +67,10 @@ def _work(tasks: _Tasks) -> None:
 def _carry_out(task: Callable[[], _Result], future: Future[_Result]) -> None:
     try:
         future.set_result(task())
-    except Exception as problem:
+    except BaseException as problem:
         future.set_exception(problem)
+        if not isinstance(problem, Exception):
+            raise
 
 
 @atexit.register

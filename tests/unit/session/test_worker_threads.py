@@ -115,3 +115,11 @@ def test_python_exits_while_a_worker_is_busy_and_more_tasks_wait(work: str) -> N
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (0, "end\n", "")
     assert time.monotonic() - begin < 20
+
+
+def test_a_task_that_ends_its_thread_ends_its_future() -> None:
+    def leave() -> None:
+        raise SystemExit
+
+    with pytest.raises(SystemExit):
+        WorkerPool(1, "test").submit(leave).result(10)
