@@ -143,6 +143,13 @@ def own_middle_m(item: SceneObject) -> Vector:
     return x, y, z
 
 
+def own_half_m(item: SceneObject) -> Vector:
+    """Half the sides of the box around an object along the axes of its own frame [m]."""
+    low, high = item.geometry.mesh.bounds_m
+    x, y, z = ((high - low) / 2).tolist()
+    return x, y, z
+
+
 @lru_cache(maxsize=4096)
 def _corner(surface: DominantSurface, length_m: float, width_m: float, *, has_outline: bool = False) -> Pose:
     """Pose of a plate's corner. A plate of corrected size keeps the middle of the measured surface or outline."""

@@ -17,7 +17,7 @@ from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import RemovedIds
 from scene2hap.session.impacts.slams import Way, edge_that_meets
-from scene2hap.session.network import Corners, Middles, PlatePoses, body_of, own_middle_m, rigid_body_of
+from scene2hap.session.network import Corners, Middles, PlatePoses, body_of, own_half_m, own_middle_m, rigid_body_of
 from scene2hap.session.reach import Reach, reach_over
 
 Thing = TypeVar("Thing")
@@ -98,9 +98,13 @@ class SceneState:
         self._corners = _with(self._corners, object_id, None)
         return change
 
-    def middle_m(self, object_id: str) -> tuple[float, float, float]:
+    def middle_m(self, object_id: str) -> Vector:
         """Middle of the box around an object, in its own frame [m]."""
         return own_middle_m(self.objects[object_id])
+
+    def half_m(self, object_id: str) -> Vector:
+        """Half the sides of this box [m]."""
+        return own_half_m(self.objects[object_id])
 
     def edge_that_meets(self, object_id: str, way: Callable[[str], Way]) -> tuple[str, Vector] | None:
         """Return what a hinge holds an object on, and where the two meet: see `slams.edge_that_meets`; None if they do

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
+from scene2hap.contact.rule import TOUCH_M
 from scene2hap.scene.geometry import Vector, dot
 from scene2hap.scene.pose import Pose
 from scene2hap.session.impacts.motion_track import LEAST_TRAVEL_M, LEFT, MOST_STEPS, STILL, MotionTrack, in_world
@@ -72,18 +73,20 @@ class Landings:
     """Follows moving objects, and finds those that land.
 
     Parameters: graph : the contacts, read at each `look`; middle_m : the middle of an object's box, in its own frame
-    [m]; edge_that_meets : of an object that a hinge holds on another, see `slams`; period_s : usual time between
-    updates, for a clock that stands still.
+    [m]; half_m : half the sides of this box [m]; edge_that_meets : of an object that a hinge holds on another, see
+    `slams`; period_s : usual time between updates, for a clock that stands still.
     """
 
     def __init__(
         self,
         graph: ContactGraph,
         middle_m: Callable[[str], Vector],
+        half_m: Callable[[str], Vector],
         edge_that_meets: Callable[[str, Callable[[str], Way]], tuple[str, Vector] | None],
         period_s: float,
     ) -> None:
-        self._graph, self._middle_m, self._edge_that_meets = graph, middle_m, edge_that_meets
+        self._graph, self._middle_m, self._half_m = graph, middle_m, half_m
+        self._edge_that_meets = edge_that_meets
         self._period_s = period_s
         self._tracks: dict[str, MotionTrack] = {}
         self._near: dict[str, dict[str, Junction]] = {}
@@ -155,7 +158,7 @@ class Landings:
                     and (change >= _SUDDEN * dot(before, before) or not self._tracks.keys().isdisjoint(near))
                 ):
                     changed.append(object_id)
-            elif track.has_stopped(now) and beside.get(object_id) and track.is_falling:
+            elif beside.get(object_id) and track.is_falling and (track.has_stopped(now) or track.has_stopped(now - 1)):
                 stopped.append(object_id)
             elif track.is_at_rest(now):
                 at_rest.append(object_id)
@@ -228,6 +231,8 @@ class Landings:
             normal = _direction(came) if other == holder else self._normal(object_id, other, point, junction, first)
             closing = dot(came, normal)
             if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
+                if self._is_early(object_id, track, point, normal):
+                    continue
                 step = dot(self._nearing(object_id, other, point, before, last), normal)
                 onward = dot(self._nearing(object_id, other, point, last, now), normal)
                 most = LEFT * step * shorter if other in beside else 0.0
@@ -240,6 +245,21 @@ class Landings:
         if best is None:
             return []
         return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
+
+    def _is_early(self, object_id: str, track: MotionTrack, point_m: Vector, normal: Vector) -> bool:
+        """Whether an object has just stopped in mid air: physics may be slower than the frames, and miss one.
+
+        The point of a contact is half way between the two surfaces. The box around the object reaches at least as far
+        as its own.
+        """
+        pose = self._graph.pose(object_id)
+        if pose != track.pose or not track.has_stopped(self._n_updates):
+            return False
+        x, y, z = in_world(self._middle_m(object_id), pose)
+        half_m = self._half_m(object_id)
+        own_normal = (np.array(normal) @ pose.rotation).tolist()
+        reach_m = sum(abs(part) * half for part, half in zip(own_normal, half_m, strict=True))
+        return 2 * (dot(_difference(point_m, (x, y, z)), normal) - reach_m) > TOUCH_M
 
     def _speed(
         self, object_id: str, other: str, point_m: Vector, normal: Vector, run: Sequence[tuple[int, float]]

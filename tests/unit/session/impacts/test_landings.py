@@ -37,6 +37,10 @@ def _middle(object_id: str) -> tuple[float, float, float]:
     return 0.0, 0.0, 0.0  # boxes are centred
 
 
+def _half(object_id: str) -> tuple[float, float, float]:
+    return {"cup": (0.04, 0.06, 0.04), "book": (0.1, 0.015, 0.075)}.get(object_id, (1.0, 1.0, 1.0))
+
+
 def _without_hinge(object_id: str, way: Callable[[str], Way]) -> None:
     pass
 
@@ -44,7 +48,12 @@ def _without_hinge(object_id: str, way: Callable[[str], Way]) -> None:
 def landings_of(path: Path, *, moved: str = "cup", period_s: float = PERIOD_S, clock: bool = True) -> list[Landing]:
     """The landings while an object moves along a path, and for half a second afterwards."""
     graph = room()
-    landings, found, time_s, last = Landings(graph, _middle, _without_hinge, period_s), list[Landing](), 0.0, None
+    landings, found, time_s, last = (
+        Landings(graph, _middle, _half, _without_hinge, period_s),
+        list[Landing](),
+        0.0,
+        None,
+    )
     at = [*path]
     for position in [*at, *[None] * 45]:
         poses = {} if position is None else {moved: Pose(position)}
@@ -63,7 +72,7 @@ def landings_in(
     middle_m: Callable[[str], Triple] = _middle,
 ) -> list[Landing]:
     """What lands in frames of a time [s] and poses, and in half a second more."""
-    landings, found, time_s = Landings(graph, middle_m, _without_hinge, PERIOD_S), list[Landing](), 0.0
+    landings, found, time_s = Landings(graph, middle_m, _half, _without_hinge, PERIOD_S), list[Landing](), 0.0
     given = [*frames]
     for time_s, poses in [*given, *((given[-1][0] + (i + 1) * PERIOD_S, {}) for i in range(45))]:
         landings.begin(poses, time_s)
@@ -100,6 +109,34 @@ def test_a_landing_early_in_a_frame_is_as_fast_as_one_late_in_it(begins: float, 
     assert found.speed_m_s == pytest.approx(1.5)
 
 
+@pytest.mark.parametrize("physics_hz", [50, 45, 40])
+@pytest.mark.parametrize("height_m", [0.04, 0.05, 0.06])
+@pytest.mark.parametrize("phase", [0.0, 0.2, 0.4, 0.6, 0.8])
+def test_object_does_not_land_in_mid_air_where_slower_physics_misses_a_frame(
+    physics_hz: int, height_m: float, phase: float
+) -> None:
+    """A fall in frames at 60 Hz."""
+    frames, shown = [], 0.0
+    for frame in range(60):
+        time_s = frame / 60
+        if (steps := math.floor(time_s * physics_hz + phase)) > shown:
+            shown = steps
+            fallen = min(height_m, 9.81 / 2 * (max(0.0, steps / physics_hz) ** 2))
+            frames.append((time_s, {"cup": Pose((0.0, RESTS_M + height_m - fallen, 0.0))}))
+        else:
+            frames.append((time_s, {}))
+    graph = room()
+    graph.update({"cup": Pose((0.0, RESTS_M + height_m, 0.0))})
+    landings, when = Landings(graph, _middle, _half, _without_hinge, 1 / 60), list[float]()
+    for time_s, poses in frames:
+        landings.begin(poses, time_s)
+        graph.update(poses)
+        when += [time_s] * len(landings.look(poses, time_s))
+    assert len(when) == 1
+    fall_s = math.sqrt(2 * height_m / 9.81)
+    assert fall_s - 2 / physics_hz <= when[0] <= fall_s + 2 / physics_hz + 2 / 60
+
+
 @pytest.mark.parametrize(("frames_hz", "least_m_s"), [(30, 0.3), (60, 0.25), (90, 0.167), (120, 0.125)])
 def test_slowest_landing_does_not_depend_on_the_time_in_a_frame(frames_hz: int, least_m_s: float) -> None:
     for speed, n_landings in ((0.95 * least_m_s, 0), (1.05 * least_m_s, 1)):
@@ -122,7 +159,7 @@ def test_object_that_lands_on_several_lands_on_the_first_by_id(names: str) -> No
 def lands_in(path: Path) -> int:
     """The number of the frame in which the cup lands."""
     graph = room()
-    landings, when = Landings(graph, _middle, _without_hinge, PERIOD_S), []
+    landings, when = Landings(graph, _middle, _half, _without_hinge, PERIOD_S), []
     for step, position in enumerate(path):
         poses = {"cup": Pose(position)}
         landings.begin(poses, step * PERIOD_S)
@@ -219,7 +256,7 @@ def test_object_that_moves_in_some_of_many_updates_lands(phase: int) -> None:
 def test_contact_in_any_update_of_a_fast_bounce_counts(updates_hz: int) -> None:
     """A ball that bounces off within 2 ms is out of reach by the end of the step, whose contacts an engine gives."""
     graph = room()
-    landings, found = Landings(graph, _middle, _without_hinge, PERIOD_S), list[Landing]()
+    landings, found = Landings(graph, _middle, _half, _without_hinge, PERIOD_S), list[Landing]()
     for step in range(round(0.4 * updates_hz)):
         t = step / updates_hz - 0.2
         y = RESTS_M + (-4.0 * t if t < 0 else 3.0 * t)
@@ -249,7 +286,7 @@ def test_turning_object_that_bounces_as_high_as_it_fell_lands(begins: float, fra
         meets = Contact("cup", "table", (0.0, 0.7, 0.0), (0.0, -1.0, 0.0))
         frames.append((step / frames_hz, {"cup": pose}, [meets] if abs(t) < 1 / frames_hz else []))
     graph = room()
-    landings, found = Landings(graph, _middle, _without_hinge, PERIOD_S), list[Landing]()
+    landings, found = Landings(graph, _middle, _half, _without_hinge, PERIOD_S), list[Landing]()
     for time_s, poses, touching in frames:
         landings.begin(poses, time_s)
         graph.update(poses, contacts=touching)
@@ -304,7 +341,7 @@ def test_resting_sliding_or_jittering_object_does_not_land(kind: Callable[[np.ra
 
 def test_objects_carried_together_do_not_land() -> None:
     graph = room()
-    landings = Landings(graph, _middle, _without_hinge, PERIOD_S)
+    landings = Landings(graph, _middle, _half, _without_hinge, PERIOD_S)
     graph.update({"cup": Pose((-0.4, 0.79, 0.2))})
     found = []
     for step in range(40):
@@ -318,7 +355,7 @@ def test_objects_carried_together_do_not_land() -> None:
 
 def test_dropped_stack_lands_with_its_lowest_object() -> None:
     graph = room()
-    landings = Landings(graph, _middle, _without_hinge, PERIOD_S)
+    landings = Landings(graph, _middle, _half, _without_hinge, PERIOD_S)
     found = []
     for step in range(40):
         y = max(0.0, 0.5 - 0.03 * step)
@@ -331,7 +368,7 @@ def test_dropped_stack_lands_with_its_lowest_object() -> None:
 
 def test_object_removed_while_falling_does_not_land() -> None:
     graph = room()
-    landings = Landings(graph, _middle, _without_hinge, PERIOD_S)
+    landings = Landings(graph, _middle, _half, _without_hinge, PERIOD_S)
     for step in range(3):
         poses = {"cup": Pose((0.0, 1.2 - 0.03 * step, 0.0))}
         landings.begin(poses, step * PERIOD_S)
@@ -489,7 +526,7 @@ def test_block_that_slides_on_a_tray_lands_on_its_rim() -> None:
     graph = ContactGraph(
         scene(box("block", (0.06, 0.06, 0.06), (0.0, 0.03, 0.0)), box("tray", (0.8, 0.02, 0.6), (0, -0.01, 0)))
     )
-    landings, found = Landings(graph, _middle, _without_hinge, PERIOD_S), list[Landing]()
+    landings, found = Landings(graph, _middle, _half, _without_hinge, PERIOD_S), list[Landing]()
     for frame in range(45):
         x = min(0.01 * frame, 0.35)
         contacts = [Contact("block", "tray", (x + dx, 0.0, 0.0), (0.0, -1.0, 0.0)) for dx in (-0.03, 0.03)]
