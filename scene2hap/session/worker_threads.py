@@ -8,7 +8,7 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from functools import partial
 from queue import SimpleQueue
-from threading import Thread
+from threading import Event, Thread
 from typing import Any, TypeVar
 from weakref import WeakKeyDictionary, finalize
 
@@ -20,6 +20,7 @@ solver that it has begun."""
 
 _Result = TypeVar("_Result")
 _Tasks = SimpleQueue[Callable[[], None] | None]
+_ENDING = Event()
 _ENDS: WeakKeyDictionary[Thread, Callable[[], object]] = WeakKeyDictionary()
 
 
@@ -58,7 +59,7 @@ class WorkerPool:
 
 
 def _work(tasks: _Tasks) -> None:
-    while (task := tasks.get()) is not None:
+    while (task := tasks.get()) is not None and not _ENDING.is_set():
         task()
         del task  # else what it refers to would live until the next one
     tasks.put(None)  # for the other threads
@@ -67,15 +68,14 @@ def _work(tasks: _Tasks) -> None:
 def _carry_out(task: Callable[[], _Result], future: Future[_Result]) -> None:
     try:
         future.set_result(task())
-    except BaseException as problem:
+    except BaseException as problem:  # also the SystemExit of `_leave`
         future.set_exception(problem)
-        if not isinstance(problem, Exception):
-            raise
 
 
 @atexit.register
 def _end_all() -> None:
     until = Deadline(LAST_S)
+    _ENDING.set()
     running = [(worker, end) for worker, end in _ENDS.items() if worker.is_alive()]
     for worker, end in running:
         end()

@@ -257,7 +257,7 @@ class Landings:
             return False
         x, y, z = in_world(self._middle_m(object_id), pose)
         half_m = self._half_m(object_id)
-        own_normal = (np.array(normal) @ pose.rotation).tolist()
+        own_normal: list[float] = (np.array(normal) @ pose.rotation).tolist()
         reach_m = sum(abs(part) * half for part, half in zip(own_normal, half_m, strict=True))
         return 2 * (dot(_difference(point_m, (x, y, z)), normal) - reach_m) > TOUCH_M
 
