@@ -344,7 +344,7 @@ class Impacts:
         def work() -> dict[str, float] | None:
             try:
                 gains = prepared()
-            except Exception:  # the field in use fails in the same way, and warns
+            except (Exception, SystemExit):  # the field in use fails in the same way, and warns
                 return None
             begin = playback.position
             return started(gains, begin) if begin <= latest else None
