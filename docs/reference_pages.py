@@ -33,6 +33,7 @@ TITLES = {
     "export": "Exports",
     "devices": "Actuators",
     "testing": "Contracts for plug-ins",
+    "common": "Warnings",
     "errors": "Errors",
 }
 ROOT = Path(__file__).parents[1]
