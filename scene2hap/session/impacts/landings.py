@@ -158,7 +158,7 @@ class Landings:
                     and (change >= _SUDDEN * dot(before, before) or not self._tracks.keys().isdisjoint(near))
                 ):
                     changed.append(object_id)
-            elif beside.get(object_id) and track.is_falling and (track.has_stopped(now) or track.has_stopped(now - 1)):
+            elif (track.has_stopped(now) or track.has_stopped(now - 1)) and beside.get(object_id) and track.is_falling:
                 stopped.append(object_id)
             elif track.is_at_rest(now):
                 at_rest.append(object_id)
