@@ -235,8 +235,8 @@ async def arebake(
     given, config = config.model_fields_set, _settings_of(bundle, config)
     if isinstance(objects, str):
         raise ConfigError(f"objects is the text {objects!r}; give a list of ids, [{objects!r}].")
-    anew = [*checks.items("objects", objects, error=ConfigError), *renamed_objects(bundle)]
-    again = list(dict.fromkeys([*anew, *objects_without_states(bundle)]))
+    whole = [*checks.items("objects", objects, error=ConfigError), *renamed_objects(bundle)]
+    again = list(dict.fromkeys([*whole, *objects_without_states(bundle)]))
     inference = await infer_corrected(
         bundle.snapshot,
         config.llm,
@@ -251,7 +251,7 @@ async def arebake(
         on_report(inference.report)
     inferred = dict(bundle.objects)
     for key, haptics in inference.objects.items():
-        inferred[key] = haptics if key in anew else replace_vibration(bundle.objects[key], haptics)
+        inferred[key] = haptics if key in whole else replace_vibration(bundle.objects[key], haptics)
     earlier = Earlier(
         bundle.loops,
         bundle.choices,

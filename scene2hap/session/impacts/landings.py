@@ -255,11 +255,9 @@ class Landings:
         pose = self._graph.pose(object_id)
         if pose != track.pose or not track.has_stopped(self._n_updates):
             return False
-        x, y, z = in_world(self._middle_m(object_id), pose)
-        half_m = self._half_m(object_id)
         own_normal: list[float] = (np.array(normal) @ pose.rotation).tolist()
-        reach_m = sum(abs(part) * half for part, half in zip(own_normal, half_m, strict=True))
-        return 2 * (dot(_difference(point_m, (x, y, z)), normal) - reach_m) > TOUCH_M
+        reach_m = sum(abs(part) * half for part, half in zip(own_normal, self._half_m(object_id), strict=True))
+        return 2 * (dot(_difference(point_m, track.middle_m), normal) - reach_m) > TOUCH_M
 
     def _speed(
         self, object_id: str, other: str, point_m: Vector, normal: Vector, run: Sequence[tuple[int, float]]
