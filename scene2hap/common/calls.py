@@ -30,17 +30,18 @@ class Missing(NamedTuple):
 
     owner: str
     wanted: str
-    known: tuple[str, ...]
+    known: frozenset[str]
 
     def __str__(self) -> str:
-        near = checks.did_you_mean(self.wanted, self.known, f"There are {', '.join(self.known) or 'none'}.")
+        known = sorted(self.known)
+        near = checks.did_you_mean(self.wanted, known, f"There are {', '.join(known) or 'none'}.")
         return f"{self.owner} has no attribute {checks.represented(self.wanted)}. {near}"
 
 
 def unknown_attribute(owner: str, wanted: str, known: Iterable[str]) -> UnknownAttribute:
     """Return the error for an attribute that is not among the known ones."""
     # With obj=None, Python does not keep the instance alive and does not append its own suggestion.
-    return UnknownAttribute(Missing(owner, wanted, tuple(sorted(known))), name=wanted, obj=None)
+    return UnknownAttribute(Missing(owner, wanted, frozenset(known)), name=wanted, obj=None)
 
 
 def unknown_import(owner: str, wanted: str, known: Iterable[str]) -> UnknownImport:
@@ -133,13 +134,20 @@ def _cannot_set(self: object, name: str, how: str) -> ReadOnlyAttribute | Unknow
     return unknown_attribute(owner, name, known)
 
 
-def _public(self: object) -> set[str]:
-    cls = type(self)
+def _public(self: object) -> frozenset[str]:
+    names = _public_of_class(type(self))
+    if hasattr(type(self), "model_fields"):
+        return names
+    return names.union(name for name in getattr(self, "__dict__", ()) if not name.startswith("_"))
+
+
+@functools.lru_cache(1024)
+def _public_of_class(cls: type) -> frozenset[str]:
     settings = getattr(cls, "model_fields", None)  # pydantic classes have dozens of methods, so only fields count
     if settings is not None:
-        return set(settings)
+        return frozenset(settings)
     fields: Iterable[str] = getattr(cls, "__dataclass_fields__", ())
-    return {name for name in {*dir(cls), *fields, *getattr(self, "__dict__", ())} if not name.startswith("_")}
+    return frozenset(name for name in {*dir(cls), *fields} if not name.startswith("_"))
 
 
 def _set(cls: type, name: str, function: Any) -> None:
