@@ -135,7 +135,7 @@ def _cannot_set(self: object, name: str, how: str) -> ReadOnlyAttribute | Unknow
 
 
 def _public(self: object) -> frozenset[str]:
-    names = _public_of_class(type(self))
+    names = _public_of_class(type(self))  # type: ignore[arg-type]  # mypy takes the hash of an instance for its own
     if hasattr(type(self), "model_fields"):
         return names
     return names.union(name for name in getattr(self, "__dict__", ()) if not name.startswith("_"))
