@@ -16,7 +16,7 @@ from scene2hap.scene.objects import Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import RemovedIds
-from scene2hap.session.impacts.slams import Way, edge_that_meets
+from scene2hap.session.impacts.slams import Slam, Way, slam_of
 from scene2hap.session.network import Corners, Middles, PlatePoses, body_of, own_half_m, own_middle_m, rigid_body_of
 from scene2hap.session.reach import Reach, reach_over
 
@@ -106,9 +106,8 @@ class SceneState:
         """Half the sides of this box [m]."""
         return own_half_m(self.objects[object_id])
 
-    def edge_that_meets(self, object_id: str, way: Callable[[str], Way]) -> tuple[str, Vector] | None:
-        """Return what a hinge holds an object on, and where the two meet: see `slams.edge_that_meets`; None if they do
-        not, or without a hinge.
+    def slam(self, object_id: str, way: Callable[[str], Way]) -> Slam | None:
+        """Return what an object may slam against, see `slam_of`; None also without a hinge.
 
         Parameters: way : returns the way relative to another object.
         """
@@ -116,8 +115,7 @@ class SceneState:
         holder = None if item.hinge is None else self.objects.get(item.hinge.to)
         if item.hinge is None or holder is None:
             return None
-        edge = edge_that_meets(item, item.hinge, holder, way(holder.id))
-        return None if edge is None else (holder.id, edge)
+        return slam_of(item, item.hinge, holder, way(holder.id))
 
     def on_plate(self, object_id: str, point_m: tuple[float, float, float]) -> tuple[float, float] | None:
         """Coordinates of a world point [m] along length and width of an object's plate; None without a plate."""

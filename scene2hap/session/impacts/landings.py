@@ -14,7 +14,7 @@ A hinge is the only contact of a door with its cabinet. What meets the cabinet i
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import pairwise
 from types import MappingProxyType
@@ -29,7 +29,7 @@ from scene2hap.contact.rule import TOUCH_M
 from scene2hap.scene.geometry import Vector, dot
 from scene2hap.scene.pose import Pose
 from scene2hap.session.impacts.motion_track import LEAST_TRAVEL_M, LEFT, MOST_STEPS, STILL, MotionTrack, in_world
-from scene2hap.session.impacts.slams import Way
+from scene2hap.session.impacts.slams import Slam, Way
 
 LEAST_SPEED_M_S = 0.1
 """A cup put down more slowly is as good as not felt, and trackers shake as fast."""
@@ -69,12 +69,22 @@ class Landing(NamedTuple):
     speed_m_s: float
 
 
+class _Approach(NamedTuple):
+    """A point at which an object came nearer to another one: travel there [m], and the normal towards the other."""
+
+    other: str
+    is_slam: bool
+    point_m: Vector
+    came_m: Vector
+    normal: Vector
+
+
 class Landings:
     """Follows moving objects, and finds those that land.
 
     Parameters: graph : the contacts, read at each `look`; middle_m : the middle of an object's box, in its own frame
-    [m]; half_m : half the sides of this box [m]; edge_that_meets : of an object that a hinge holds on another, see
-    `slams`; period_s : usual time between updates, for a clock that stands still.
+    [m]; half_m : half the sides of this box [m]; slam : what an object on a hinge may slam against; period_s : usual
+    time between updates, for a clock that stands still.
     """
 
     def __init__(
@@ -82,11 +92,11 @@ class Landings:
         graph: ContactGraph,
         middle_m: Callable[[str], Vector],
         half_m: Callable[[str], Vector],
-        edge_that_meets: Callable[[str, Callable[[str], Way]], tuple[str, Vector] | None],
+        slam: Callable[[str, Callable[[str], Way]], Slam | None],
         period_s: float,
     ) -> None:
         self._graph, self._middle_m, self._half_m = graph, middle_m, half_m
-        self._edge_that_meets = edge_that_meets
+        self._slam = slam
         self._period_s = period_s
         self._tracks: dict[str, MotionTrack] = {}
         self._near: dict[str, dict[str, Junction]] = {}
@@ -219,16 +229,14 @@ class Landings:
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
         beside, met = self._graph.beside.get(object_id, _NOTHING), self._met(object_id)
-        holder, edge = self._edge_that_meets(object_id, partial(self._way, track)) or (None, STILL)
+        slam = self._slam(object_id, partial(self._way, track))
+        holder = None if slam is None else slam.holder
         # Sorted, since the graph's order depends on the hashes of ids, which differ in each run of Python. Present
         # contacts come first, and hinges last among these: a contact elsewhere shows where the two objects meet.
         others = sorted(met, key=lambda x: (x not in beside, x == holder, x))
-        for other, junction in [(x, side) for x in others for side in _sides(met[x])]:
-            if best is not None and (other not in beside or other == holder):
-                break
-            point = in_world(edge, self._graph.pose(object_id)) if other == holder else _middle(junction)
-            came = self._nearing(object_id, other, point, first, last)
-            normal = _direction(came) if other == holder else self._normal(object_id, other, point, junction, first)
+        for other, is_slam, point, came, normal in self._approaches(object_id, others, met, slam, (first, last)):
+            if best is not None and (other not in beside or is_slam):
+                continue
             closing = dot(came, normal)
             if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
                 if self._is_early(object_id, track, point, normal):
@@ -239,12 +247,34 @@ class Landings:
                 middle_m = self._middle_nearing_m(object_id, other, point, normal, first, last)
                 if onward > most or middle_m < ROLLS * closing:
                     continue
-                if self._stops_suddenly(object_id, other, point, normal, [*steps, (now, time_s)]):
+                if not self._stops_suddenly(object_id, other, point, normal, [*steps, (now, time_s)]):
+                    continue
+                # A door that slams meets its holder with its edge, and not at its hinge. To find it takes longest.
+                if slam is None or other != holder or slam.meets == is_slam:
                     best, most_m = (other, point), closing
                     speed = max(self._speed(object_id, other, point, normal, one) for one in (run, earlier))
         if best is None:
             return []
         return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
+
+    def _approaches(
+        self,
+        object_id: str,
+        others: Sequence[str],
+        met: Mapping[str, Junction],
+        slam: Slam | None,
+        between: tuple[int, int],
+    ) -> Iterator[_Approach]:
+        """Where an object may have met others: its contacts, split by their normals, and its edge before its hinge."""
+        for other in others:
+            if slam is not None and other == slam.holder:
+                point = in_world(slam.edge_m, self._graph.pose(object_id))
+                came = self._nearing(object_id, other, point, *between)
+                yield _Approach(other, True, point, came, _direction(came))
+            for side in _sides(met[other]):
+                point = _middle(side)
+                came = self._nearing(object_id, other, point, *between)
+                yield _Approach(other, False, point, came, self._normal(object_id, other, point, side, between[0]))
 
     def _is_early(self, object_id: str, track: MotionTrack, point_m: Vector, normal: Vector) -> bool:
         """Whether an object has just stopped in mid air: physics may be slower than the frames, and miss one.

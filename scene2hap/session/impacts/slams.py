@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import product
 
 import numpy as np
@@ -33,30 +33,49 @@ Way = Sequence[tuple[Pose, Pose]]
 """Poses of an object and of another one at the start of the motion, a step ago, and now."""
 
 
-def edge_that_meets(item: SceneObject, hinge: Hinge, holder: SceneObject, way: Way) -> Vector | None:
-    """Return the middle of the far side of a door or lid [m], in its own frame, if what its hinge holds it on is in its
-    way; None if not, or if the hinge does not hold."""
+class Slam:
+    """What a door or a lid may slam against with its far edge.
+
+    holder : id of what the hinge holds it on; edge_m : the middle of its far side, in its own frame [m].
+    """
+
+    def __init__(self, item: SceneObject, holder: SceneObject, way: Way) -> None:
+        self.holder: str = holder.id
+        self._shape_of_holder = shape_of(holder.geometry.mesh)
+        begin, before, now = (its.inverse().compose(pose) for pose, its in way)
+        low, high = item.geometry.mesh.bounds_m
+        corners_m = np.where(_ENDS, high, low)
+        travels_m = np.linalg.norm(now.to_world(corners_m) - before.to_world(corners_m), axis=1)
+        axis, end = max(product(range(3), (0, 1)), key=lambda side: travels_m[_ENDS[:, side[0]] == side[1]].sum())
+        far = np.where(np.arange(3) == axis, (low, high)[end], (low + high) / 2)
+        x, y, z = far.tolist()
+        self.edge_m: Vector = (x, y, z)
+        middle, sizes_m = (far + (low + high) / 2) / 2, np.where(np.arange(3) == axis, 0.5, 1.0) * (high - low)
+        self._half, at = _box(tuple(sizes_m.tolist())), Pose(tuple(middle))
+        self._way = [pose.compose(at) for pose in (begin, before, now)]
+        self._travel_m = travels_m.max()
+
+    @cached_property
+    def meets(self) -> bool:
+        """Whether the holder is in the way of the far half. Finding it takes a millisecond."""
+        begin, before, now = self._way
+        # Steps of twice the play cannot pass through the holder: what is within the play on either side counts as met.
+        shares = np.linspace(0, 1, 1 + math.ceil(self._travel_m / (2 * HINGE_PLAY_M))).tolist()
+        poses = (begin, *(_onward(before, now, share) for share in shares))
+        first, *onward = (Body("", self._half, pose, 1) for pose in poses)
+        on = _near(self._shape_of_holder, [first, *onward])
+        return on is not None and not _meet(first, on) and any(_meet(one, on) for one in onward)
+
+
+def slam_of(item: SceneObject, hinge: Hinge, holder: SceneObject, way: Way) -> Slam | None:
+    """Return what a door or lid on a hinge may slam against; None if the hinge does not hold, or if the holder moves on
+    a hinge itself."""
     if holder.hinge is not None and way[0][1] != way[-1][1]:
         return None
-    begin, before, now = (its.inverse().compose(pose) for pose, its in way)
-    if math.dist(now.to_world([hinge.point_m])[0], hinge.other_point_m) >= HINGE_PLAY_M:
+    pose, its = way[-1]
+    if math.dist(its.inverse().compose(pose).to_world([hinge.point_m])[0], hinge.other_point_m) >= HINGE_PLAY_M:
         return None
-    low, high = item.geometry.mesh.bounds_m
-    corners_m = np.where(_ENDS, high, low)
-    travels_m = np.linalg.norm(now.to_world(corners_m) - before.to_world(corners_m), axis=1)
-    axis, end = max(product(range(3), (0, 1)), key=lambda side: travels_m[_ENDS[:, side[0]] == side[1]].sum())
-    far = np.where(np.arange(3) == axis, (low, high)[end], (low + high) / 2)
-    middle, sizes_m = (far + (low + high) / 2) / 2, np.where(np.arange(3) == axis, 0.5, 1.0) * (high - low)
-    half, at = _box(tuple(sizes_m.tolist())), Pose(tuple(middle))
-    begin, before, now = (pose.compose(at) for pose in (begin, before, now))
-    # Steps of twice the play cannot pass through the holder: what is within the play on either side counts as met.
-    shares = np.linspace(0, 1, 1 + math.ceil(travels_m.max() / (2 * HINGE_PLAY_M))).tolist()
-    first, *onward = (Body("", half, pose, 1) for pose in (begin, *(_onward(before, now, share) for share in shares)))
-    on = _near(shape_of(holder.geometry.mesh), [first, *onward])
-    if on is None or _meet(first, on) or not any(_meet(one, on) for one in onward):
-        return None
-    x, y, z = far.tolist()
-    return x, y, z
+    return Slam(item, holder, way)
 
 
 @lru_cache(64)

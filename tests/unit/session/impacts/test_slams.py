@@ -12,7 +12,7 @@ import trimesh
 
 from scene2hap import Box, HapticSession, Impact, Pose, SceneObject, SceneSnapshot, Touch, TriMesh, bake
 from scene2hap.contact.shape import shape_of
-from scene2hap.session.impacts.slams import edge_that_meets
+from scene2hap.session.impacts.slams import slam_of
 
 WIDTH_M, THICK_M = 0.6, 0.02
 FRONT_M = 0.2
@@ -203,5 +203,7 @@ def test_a_slam_on_a_detailed_mesh_builds_no_search_tree_of_it() -> None:
     shape = shape_of(mesh)
     hinged_door = door.hinged_on(cabinet, PIVOT_M)
     assert hinged_door.hinge is not None
-    assert edge_that_meets(hinged_door, hinged_door.hinge, cabinet, way) is not None
+    slam = slam_of(hinged_door, hinged_door.hinge, cabinet, way)
+    assert slam is not None
+    assert slam.meets
     assert "tree" not in vars(shape)
