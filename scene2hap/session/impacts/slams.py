@@ -41,8 +41,8 @@ class Slam:
 
     def __init__(self, item: SceneObject, holder: SceneObject, way: Way) -> None:
         self.holder: str = holder.id
-        self._shape_of_holder = shape_of(holder.geometry.mesh)
-        begin, before, now = (its.inverse().compose(pose) for pose, its in way)
+        self._shape_of_holder, self._way = shape_of(holder.geometry.mesh), way
+        before, now = _relative(way[1]), _relative(way[2])
         low, high = item.geometry.mesh.bounds_m
         corners_m = np.where(_ENDS, high, low)
         travels_m = np.linalg.norm(now.to_world(corners_m) - before.to_world(corners_m), axis=1)
@@ -50,19 +50,19 @@ class Slam:
         far = np.where(np.arange(3) == axis, (low, high)[end], (low + high) / 2)
         x, y, z = far.tolist()
         self.edge_m: Vector = (x, y, z)
-        middle, sizes_m = (far + (low + high) / 2) / 2, np.where(np.arange(3) == axis, 0.5, 1.0) * (high - low)
-        self._half, at = _box(tuple(sizes_m.tolist())), Pose(tuple(middle))
-        self._way = [pose.compose(at) for pose in (begin, before, now)]
-        self._travel_m = travels_m.max()
+        self._far_half = (far + (low + high) / 2) / 2, np.where(np.arange(3) == axis, 0.5, 1.0) * (high - low)
+        self._travel_m = float(travels_m.max())
 
     @cached_property
     def meets(self) -> bool:
         """Whether the holder is in the way of the far half. Finding it takes a millisecond."""
-        begin, before, now = self._way
+        middle_m, sizes_m = self._far_half
+        half, at = _box(tuple(sizes_m.tolist())), Pose(tuple(middle_m))
+        begin, before, now = (_relative(poses).compose(at) for poses in self._way)
         # Steps of twice the play cannot pass through the holder: what is within the play on either side counts as met.
         shares = np.linspace(0, 1, 1 + math.ceil(self._travel_m / (2 * HINGE_PLAY_M))).tolist()
         poses = (begin, *(_onward(before, now, share) for share in shares))
-        first, *onward = (Body("", self._half, pose, 1) for pose in poses)
+        first, *onward = (Body("", half, pose, 1) for pose in poses)
         on = _near(self._shape_of_holder, [first, *onward])
         return on is not None and not _meet(first, on) and any(_meet(one, on) for one in onward)
 
@@ -72,10 +72,14 @@ def slam_of(item: SceneObject, hinge: Hinge, holder: SceneObject, way: Way) -> S
     a hinge itself."""
     if holder.hinge is not None and way[0][1] != way[-1][1]:
         return None
-    pose, its = way[-1]
-    if math.dist(its.inverse().compose(pose).to_world([hinge.point_m])[0], hinge.other_point_m) >= HINGE_PLAY_M:
+    if math.dist(_relative(way[-1]).to_world([hinge.point_m])[0], hinge.other_point_m) >= HINGE_PLAY_M:
         return None
     return Slam(item, holder, way)
+
+
+def _relative(poses: tuple[Pose, Pose]) -> Pose:
+    pose, its = poses
+    return its.inverse().compose(pose)
 
 
 @lru_cache(64)
