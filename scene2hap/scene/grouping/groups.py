@@ -2,7 +2,8 @@
 
 Authors do not mark objects. Exporters split one mesh by material into several leaves, put objects into groups and add
 their own nodes above. The rule "authored" undoes this. A mesh that a tool has cut by material is first made whole again
-(`grouping.material_parts`). Then:
+(`grouping.material_parts`). Collision shapes and lower levels of detail are left out by their names
+(`grouping.not_drawn`), except by "leaf". Then:
 
 a. A node with a mesh of its own is an object. Its leaf children with meshes (a door, a drawer, a lid) are part of it. A
    child that has children is an object by itself.
@@ -37,6 +38,7 @@ from scene2hap.errors import SceneError
 from scene2hap.scene.grouping.empty_names import abbreviates, names_a_thing, says_nothing
 from scene2hap.scene.grouping.loose_parts import loose_parts
 from scene2hap.scene.grouping.material_parts import rejoined
+from scene2hap.scene.grouping.not_drawn import without_undrawn
 from scene2hap.scene.grouping.part_names import names_part, names_structure
 from scene2hap.scene.grouping.split import Member, split, stand_apart
 from scene2hap.scene.tree import AuthoredNode, Matrix, Piece
@@ -78,6 +80,8 @@ def group_objects(roots: Sequence[AuthoredNode], how: Grouping = "authored", *, 
     Raises: SceneError: `how` is none of the forms of `Grouping`, or names a node that the scene does not have.
     """
     kept = [node for root in roots if (node := root.with_geometry()) is not None]
+    if how != "leaf":
+        kept = without_undrawn(kept, how if isinstance(how, Mapping) else ())
     origin = np.eye(4)
     scene = AuthoredNode(scene_name, origin, children=tuple(kept))
     if how == "authored":
