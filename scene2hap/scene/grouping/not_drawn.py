@@ -67,5 +67,5 @@ def _finest_levels(above: AuthoredNode | None, nodes: Sequence[AuthoredNode]) ->
         plain = {node.name for node in nodes}
         if above is not None and above.pieces:
             plain |= {above.name, ""}
-        finest |= {name: 0 for name in plain & finest.keys()}
+        finest |= dict.fromkeys(plain & finest.keys(), 0)
     return finest
