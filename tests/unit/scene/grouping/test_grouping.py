@@ -360,6 +360,27 @@ def test_mass_is_assigned_only_when_the_node_is_a_whole_object() -> None:
     assert masses(group("room", fridge), how=9) == {"fridge": None, "door": 2.0}
 
 
+@pytest.mark.parametrize("at", [1.0, 0.99, -1.0])
+def test_things_that_stand_on_a_mesh_are_objects(at: float) -> None:
+    table = mesh("Table", mesh("Mug", at=at), mesh("Desk Lamp", at=at), mesh("Leg.001", at=at), at=5.0)
+    assert objects(table) == {"Table": ["Table", "Leg.001"], "Mug": ["Mug"], "Desk Lamp": ["Desk Lamp"]}
+
+
+@pytest.mark.parametrize(
+    ("above", "name", "at"),
+    [
+        ("washer", "drum", 0.3),  # inside
+        ("Table", "Table_Mug", 1.0),  # continues the name
+        ("chairDesk(Clone)", "chair", 1.0),  # repeats a word of it
+        ("Toilet", "Lid", 1.0),  # a part
+        ("Table", "Cube.001", 1.0),  # says nothing
+        ("Table", "", 1.0),
+    ],
+)
+def test_other_leaves_stay_part_of_a_mesh(above: str, name: str, at: float) -> None:
+    assert list(objects(mesh(above, mesh(name, at=at)))) == [above]
+
+
 # -- what engines do not draw ----------------------------------------------------------------------------------------
 
 
