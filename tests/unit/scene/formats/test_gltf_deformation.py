@@ -70,7 +70,8 @@ def test_morph_targets_have_their_stored_weights(tmp_path: Path, where: str) -> 
     gltf = Gltf()
     mesh = gltf.cube(targets=[{"POSITION": gltf.accessor(CUBE * [1, 0, 0], "f4", "VEC3")}, {}])
     gltf.header["meshes"][mesh]["weights"] = [0.5, 1] if where == "mesh" else [0, 0]
-    gltf.node("body", mesh=mesh, root=True, **({} if where == "mesh" else {"weights": [0.5, 0]}))
+    own: dict[str, Any] = {} if where == "mesh" else {"weights": [0.5, 0]}
+    gltf.node("body", mesh=mesh, root=True, **own)
     gltf.node("plain", mesh=mesh, weights=[0, 0], root=True)
     assert box_of(gltf, tmp_path) == [[0, 0, 0], [1.5, 1, 1]]
     assert box_of(gltf, tmp_path, "plain") == [[0, 0, 0], [1, 1, 1]]
