@@ -14,6 +14,7 @@ from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 
 HABITAT_SUFFIX = ".scene_instance.json"
+_POINTER = b"version https://git-lfs"
 
 
 def is_habitat(path: Path) -> bool:
@@ -78,7 +79,7 @@ def read_bytes(path: Path) -> bytes:
     """Return the content of a regular file.
 
     Raises: SceneError: it is missing, no regular file, unreadable or larger than `limits.MAX_FILE_BYTES`.
-    SceneFormatError: it is empty.
+    SceneFormatError: it is empty, or a pointer of Git LFS.
     """
     check_file(path)
     try:
@@ -88,7 +89,7 @@ def read_bytes(path: Path) -> bytes:
 
 
 def check_file(path: Path) -> None:
-    """Check a file without reading it. Raises: the errors of `read_bytes`, except for unreadable content."""
+    """Check a file without reading it whole. Raises: the errors of `read_bytes`, except for unreadable content."""
     try:
         if not is_there(path):
             near = checks.near_files(path) or "Check the path, or export the scene with all its files."
@@ -102,6 +103,8 @@ def check_file(path: Path) -> None:
             raise SceneError(f"{str(path)!r} is not a file; give the path of the scene file itself, not its folder.")
         limits.at_most(f"the size of {path.name!r} in bytes", path.stat().st_size, "MAX_FILE_BYTES")
         is_empty = path.stat().st_size == 0
+        with path.open("rb") as file:
+            is_pointer = file.read(len(_POINTER)) == _POINTER
     except SceneError:
         raise
     # ValueError: the name contains a zero byte.
@@ -109,3 +112,7 @@ def check_file(path: Path) -> None:
         raise SceneError(f"{str(path)!r} cannot be read: {reason_of(cause)}.") from cause
     if is_empty:
         raise SceneFormatError(f"{path.name!r} is empty (0 bytes). Export it again.")
+    if is_pointer:
+        raise SceneFormatError(
+            f"{path.name!r} is a pointer of Git LFS in place of the file; run `git lfs pull` in its repository."
+        )

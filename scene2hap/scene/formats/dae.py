@@ -20,6 +20,7 @@ import numpy as np
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.formats.dae_materials import DaeMaterials
+from scene2hap.scene.formats.polygons import triangulated
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
 
@@ -104,12 +105,23 @@ class _Reader:
         children = tuple(below for child in actual.children for below in self.nodes(child, depth + 1))
         return (AuthoredNode(name, np.array(actual.matrix, dtype=np.float64), pieces, children),)
 
+    def _triangle_set(self, polygons: Any) -> Any:
+        """Return polygons as triangles. pycollada cuts any polygon as a fan, which leaves a concave one."""
+        which, counts = polygons.vertex_index, np.asarray(polygons.vcounts, dtype=np.int64)
+        points = np.asarray([] if polygons.vertex is None else polygons.vertex, dtype=np.float64).reshape(-1, 3)
+        is_sound = len(points) > 0 and counts.min() >= 0 and counts.sum() == len(which)
+        if not (is_sound and which.min() >= 0 and which.max() < len(points)):
+            return polygons.triangleset()  # empty, or refused later
+        corners, _ = triangulated(points, counts, np.asarray(which, dtype=np.int64))
+        rows = polygons.index[corners.ravel()].ravel()
+        return self._collada.triangleset.TriangleSet(polygons.sources, polygons.material, rows, polygons.xmlnode)
+
     def _pieces(self, drawn: Any, place: str) -> list[Piece]:
         links = {link.symbol: link for link in drawn.materials}
         pieces = []
         for i, primitive in enumerate(drawn.geometry.primitives):
             if isinstance(primitive, self._collada.polylist.Polylist | self._collada.polygons.Polygons):
-                primitive = primitive.triangleset()
+                primitive = self._triangle_set(primitive)
             if not isinstance(primitive, self._collada.triangleset.TriangleSet) or primitive.vertex is None:
                 continue  # lines
             self._size.add_triangles(len(primitive.vertex_index))

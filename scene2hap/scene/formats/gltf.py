@@ -1,10 +1,10 @@
 """glTF and GLB files as authored trees.
 
 Nodes are identified by their number in the file, so an object stays the same on every load, even if its name changes.
-Cameras, lights, skins and animations are left out: a skinned mesh keeps the pose in which it was modelled. Each copy of
-an instanced mesh is a node.
+Cameras, lights, animations and hidden nodes are left out. Skinned meshes and morph targets have their stored pose
+(`gltf_deformation`). Each copy of an instanced mesh is a node.
 
-Source: glTF 2.0 specification, sections 3.5 (scenes and nodes) and 3.7 (meshes).
+Source: glTF 2.0 specification, sections 3.5 (scenes and nodes) and 3.7 (meshes); KHR_node_visibility.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.formats.gltf_accessors import indices, vectors
 from scene2hap.scene.formats.gltf_container import GltfFile, Json, mapping, natural
+from scene2hap.scene.formats.gltf_deformation import Deformation, Deformations
 from scene2hap.scene.formats.gltf_draco import DRACO, draco
 from scene2hap.scene.formats.gltf_instances import INSTANCES, instances
 from scene2hap.scene.formats.gltf_materials import GltfMaterials, Paint
@@ -58,7 +59,8 @@ class _Reader:
     def __init__(self, file: GltfFile, materials: GltfMaterials) -> None:
         self._file, self._materials = file, materials
         self._seen: set[int] = set()
-        self._pieces: dict[int, tuple[Piece, ...]] = {}
+        self._deformations = Deformations(file, _matrix)
+        self._pieces: dict[tuple[object, ...], tuple[Piece, ...]] = {}
         # By the text of a mesh's primitives: trimesh repeats these in a mesh of its own for each copy.
         self._same_pieces: dict[str, tuple[Piece, ...]] = {}
         self._scaled_pieces: dict[tuple[object, bytes], Piece] = {}
@@ -71,13 +73,15 @@ class _Reader:
             raise SceneFormatError(f"nodes[{number}] hangs below itself or below two nodes; nodes must form a tree.")
         self._seen.add(number)
         self._size.add_nodes(1, depth)
+        if mapping(mapping(row.get("extensions")).get("KHR_node_visibility")).get("visible") is False:
+            return ()
         name = _name(row)
         place = f"node {name!r}" if name else f"nodes[{number}]"
         pieces: tuple[Piece, ...] = ()
         places = None
         if "mesh" in row:
             mesh = self._file.row("meshes", row["mesh"], place)
-            pieces = self._mesh(row["mesh"], mesh, place)
+            pieces = self._mesh(row["mesh"], mesh, place, self._deformations.of(number, row, mesh, place))
             name = name or _name(mesh)
             places = instances(self._file, row, place)
             n_copies = 1 if places is None else len(places)
@@ -130,19 +134,20 @@ class _Reader:
             self._scaled_pieces[key] = replace(piece, key=key, vertices=vertices)
         return self._scaled_pieces[key]
 
-    def _mesh(self, number: int, mesh: Json, place: str) -> tuple[Piece, ...]:
-        if number not in self._pieces:
+    def _mesh(self, number: int, mesh: Json, place: str, deformation: Deformation) -> tuple[Piece, ...]:
+        which = (number, *deformation.key)
+        if which not in self._pieces:
             rows = mesh.get("primitives")
             if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
                 raise SceneFormatError(f"meshes[{number}].primitives must be a list of objects.")
-            place, text = f"{place}, meshes[{number}]", repr(rows)
+            place, text = f"{place}, meshes[{number}]", repr((rows, deformation.key))
             if text not in self._same_pieces:
-                pieces = (self._piece((number, i), row, place) for i, row in enumerate(rows))
+                pieces = (self._piece((*which, i), row, place, deformation) for i, row in enumerate(rows))
                 self._same_pieces[text] = tuple(piece for piece in pieces if piece is not None and len(piece.faces))
-            self._pieces[number] = self._same_pieces[text]
-        return self._pieces[number]
+            self._pieces[which] = self._same_pieces[text]
+        return self._pieces[which]
 
-    def _piece(self, key: tuple[int, int], row: Json, place: str) -> Piece | None:
+    def _piece(self, key: tuple[object, ...], row: Json, place: str, deformation: Deformation) -> Piece | None:
         mode = natural(row.get("mode", _TRIANGLES), f"{place}.mode")
         if mode not in (_TRIANGLES, _STRIP, _FAN):
             return None  # points and lines cannot be touched
@@ -169,6 +174,9 @@ class _Reader:
             def attribute(name: str, types: tuple[str, ...]) -> NDArray[np.float64]:
                 return vectors(self._file, attributes.get(name), types, f"{place}: its {name}")
 
+        if deformation.key:
+            self._file.values.spend(points.size, place)
+            points = deformation.deformed(self._file, row, points, attribute, place)
         material = None if row.get("material") is None else self._file.row("materials", row["material"], place)
         piece = Piece.checked(key, points, faces, "" if material is None else _name(material), place)
         paint = None if material is None else self._materials.paint(row["material"], material)

@@ -64,7 +64,8 @@ def _values(file: GltfFile, number: object, place: str) -> tuple[NDArray[np.gene
         raise SceneFormatError(f"{place}.type is {kind!r}; it must be one of {', '.join(_COLUMNS)}.")
     columns = _COLUMNS[kind]
     count = natural(row.get("count"), f"{place}.count", at_least=1)
-    limits.at_most(f"{place}.count", count, "MAX_TRIANGLES")
+    # Indices have three rows for each triangle.
+    limits.at_most(f"{place}.count / 3", count // 3, "MAX_TRIANGLES")
     dtype = _dtype(row, place)
     # Stored values are a view and need no memory. Zeros are counted against the budget before they are allocated.
     stored = _strided(file, row, count, columns, dtype, place) if "bufferView" in row else None

@@ -28,12 +28,23 @@ Json = dict[str, Any]
 _GLB_MAGIC = b"glTF"
 _JSON_CHUNK = 0x4E4F534A
 _BIN_CHUNK = 0x004E4942
-_TABLES = ("accessors", "buffers", "bufferViews", "materials", "meshes", "nodes", "scenes")
+_TABLES = ("accessors", "buffers", "bufferViews", "materials", "meshes", "nodes", "scenes", "skins")
 # Extensions that do not change geometry, by the start of their names.
-_HARMLESS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "EXT_lights_", "KHR_xmp", "MSFT_texture_")
+_HARMLESS = (
+    "KHR_materials_",
+    "KHR_texture_",
+    "EXT_texture_",
+    "KHR_lights_",
+    "EXT_lights_",
+    "KHR_xmp",
+    "MSFT_texture_",
+    "KHR_node_selectability",
+    "KHR_node_hoverability",
+)
 _UNDERSTOOD = (
     "KHR_draco_mesh_compression",
     "KHR_mesh_quantization",
+    "KHR_node_visibility",
     "KHR_animation_pointer",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",

@@ -58,7 +58,6 @@ _ORIGINS = {"com": True, "asset_local": False, "default": None, "unknown": None}
 _MOST_NAMED = 5
 # Most files counted for one articulated object (assumed: ten times the files of a kitchen).
 _MOST_PARTS = 1_000
-_LFS = b"version https://git-lfs"
 
 
 def read_habitat(
@@ -189,8 +188,7 @@ class _Reader:
         except MissingExtra:
             raise
         except SceneError as error:
-            hint = " It is a pointer of Git LFS; run `git lfs pull`." if _is_pointer(file) else ""
-            raise type(error)(f"{place}: its model {file.name!r} cannot be read: {error}{hint}") from error
+            raise type(error)(f"{place}: its model {file.name!r} cannot be read: {error}") from error
         # Many models may use one picture. Each sentence names the model that lacks the picture.
         for sentence in authored.left_out:
             self.left_out[f"{file.name}: {sentence}"] = None
@@ -335,11 +333,3 @@ def _is_bent(pose: object) -> bool:
     """Return True if any initial joint position, in a list or in a table by name, is not 0."""
     values = list(pose.values()) if isinstance(pose, dict) else pose
     return isinstance(values, list) and any(value not in (0, None) for value in values)
-
-
-def _is_pointer(file: Path) -> bool:
-    try:
-        with file.open("rb") as opened:
-            return opened.read(len(_LFS)) == _LFS
-    except OSError:
-        return False

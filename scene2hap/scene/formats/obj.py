@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,16 +19,28 @@ from scene2hap.common.checks import represented
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.formats.mtl import MtlLibraries
+from scene2hap.scene.formats.polygons import triangulated
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
 
-_Faces = list[tuple[int, int, int]]
-"""Corners of triangles, each packed into one number for speed: vertex number from 0, shifted, plus coordinates number.
-
-Coordinates are counted from 1; 0 stands for none.
-"""
 _SHIFT = 32
 _Table = NDArray[np.float64]
+
+
+@dataclass
+class _Faces:
+    """Polygons: the corners of all, and how many each has.
+
+    A corner is packed into one number for speed: vertex number from 0, shifted, plus coordinates number. Coordinates
+    are counted from 1; 0 stands for none.
+    """
+
+    corners: list[int] = field(default_factory=list)
+    counts: list[int] = field(default_factory=list)
+
+    def add(self, polygon: list[int]) -> None:
+        self.corners += polygon
+        self.counts.append(len(polygon))
 
 
 @dataclass
@@ -59,12 +70,14 @@ def read_obj(text: str, name: str, textures: TextureFiles) -> AuthoredScene:
             vertices.append(_vertex(rest, number))
         elif keyword == "f":
             if into_object is None or into_group is None:
-                into_object = objects[-1].faces.setdefault(material, [])
-                into_group = groups.setdefault(group, _Part(group)).faces.setdefault(material, [])
-            triangles = _fan(rest, len(vertices), len(coordinates), number)
-            into_object += triangles
-            into_group += triangles
-            size.add_triangles(len(triangles))
+                into_object = objects[-1].faces.setdefault(material, _Faces())
+                into_group = groups.setdefault(group, _Part(group)).faces.setdefault(material, _Faces())
+            polygon = _polygon(rest, len(vertices), len(coordinates), number)
+            # Exporters write an edge as a face of two corners.
+            if len(polygon) > 2:
+                into_object.add(polygon)
+                into_group.add(polygon)
+                size.add_triangles(len(polygon) - 2)
         elif keyword == "vt":
             coordinates.append(_coordinates(rest))
         elif keyword == "mtllib":
@@ -88,7 +101,8 @@ def read_obj(text: str, name: str, textures: TextureFiles) -> AuthoredScene:
 def _node(number: int, part: _Part, points: _Table, uv: _Table, libraries: MtlLibraries) -> AuthoredNode:
     pieces = []
     for key, faces in part.faces.items():
-        corners = np.array(faces, dtype=np.int64)
+        packed, counts = np.array(faces.corners, dtype=np.int64), np.array(faces.counts, dtype=np.int64)
+        corners = packed[triangulated(points, counts, packed >> _SHIFT)[0]]
         piece = Piece.checked((number, key), points, corners >> _SHIFT, key, f"object {part.name!r}")
         if (material := libraries.materials.get(key)) is not None:
             mapped = corners & ((1 << _SHIFT) - 1)
@@ -134,8 +148,8 @@ def _coordinates(rest: str) -> tuple[float, float]:
     return (u, v) if math.isfinite(u) and math.isfinite(v) else (0.0, 0.0)
 
 
-def _fan(rest: str, n_vertices: int, n_coordinates: int, number: int) -> _Faces:
-    """Return the triangles of a convex polygon; none of an edge, which exporters write as a face of two corners."""
+def _polygon(rest: str, n_vertices: int, n_coordinates: int, number: int) -> list[int]:
+    """Return the packed corners of a face."""
     words = rest.split()
     try:
         vertices = [int(word.partition("/")[0]) for word in words]
@@ -151,7 +165,7 @@ def _fan(rest: str, n_vertices: int, n_coordinates: int, number: int) -> _Faces:
     corners = [vertex << _SHIFT for vertex in vertices]
     if n_coordinates:
         corners = [corner + _mapped(word, n_coordinates) for corner, word in zip(corners, words, strict=True)]
-    return [(corners[0], b, c) for b, c in pairwise(corners[1:])]
+    return corners
 
 
 def _mapped(word: str, n_coordinates: int) -> int:

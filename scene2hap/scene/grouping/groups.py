@@ -2,10 +2,12 @@
 
 Authors do not mark objects. Exporters split one mesh by material into several leaves, put objects into groups and add
 their own nodes above. The rule "authored" undoes this. A mesh that a tool has cut by material is first made whole again
-(`grouping.material_parts`). Then:
+(`grouping.material_parts`). Collision shapes and lower levels of detail are left out by their names
+(`grouping.not_drawn`), except by "leaf". Then:
 
 a. A node with a mesh of its own is an object. Its leaf children with meshes (a door, a drawer, a lid) are part of it. A
-   child that has children is an object by itself.
+   child that has children is an object by itself, as is a leaf with a noun of its own outside the node's box: a mug
+   that stands on its table.
 b. A node without a mesh, and its leaf children without names or with names that begin with the node's name, are one
    object: `Cooktop` with `Cooktop_Burner_mat`. So are its children below which all names say nothing (`cube` over
    `mesh_geom`) or name parts (`seat`, `leg`, `door` over `handle`), if they are joined: prefabs, instanced collections
@@ -37,7 +39,8 @@ from scene2hap.errors import SceneError
 from scene2hap.scene.grouping.empty_names import abbreviates, names_a_thing, says_nothing
 from scene2hap.scene.grouping.loose_parts import loose_parts
 from scene2hap.scene.grouping.material_parts import rejoined
-from scene2hap.scene.grouping.part_names import names_part, names_structure
+from scene2hap.scene.grouping.not_drawn import without_undrawn
+from scene2hap.scene.grouping.part_names import names_another_thing, names_part, names_structure
 from scene2hap.scene.grouping.split import Member, split, stand_apart
 from scene2hap.scene.tree import AuthoredNode, Matrix, Piece
 
@@ -78,6 +81,8 @@ def group_objects(roots: Sequence[AuthoredNode], how: Grouping = "authored", *, 
     Raises: SceneError: `how` is none of the forms of `Grouping`, or names a node that the scene does not have.
     """
     kept = [node for root in roots if (node := root.with_geometry()) is not None]
+    if how != "leaf":
+        kept = without_undrawn(kept, how if isinstance(how, Mapping) else ())
     origin = np.eye(4)
     scene = AuthoredNode(scene_name, origin, children=tuple(kept))
     if how == "authored":
@@ -133,11 +138,12 @@ def _authored(node: AuthoredNode, above: Matrix) -> _Subtree:
             [Group(node.name, frame, tuple(_all_parts(node, above)), node.mass_kg, node.key)], has_head=True
         )
     members = [Member(node.name, frame, node.pieces)] if node.pieces else []
+    base = Member(node.name, np.eye(4), node.pieces) if node.pieces else None
     joined = _joined_parts(node, frame)
     is_joined = frozenset(joined)
     below = []
     for child in node.children:
-        if _is_part(child, node):
+        if _is_part(child, node) and not (base and _is_thing_beside(child, base)):
             members.append(Member(child.name, frame @ child.matrix, child.pieces))
         elif child not in is_joined:
             below.append(_authored(child, frame))
@@ -171,6 +177,16 @@ def _is_part(child: AuthoredNode, node: AuthoredNode) -> bool:
     if node.pieces:
         return True
     return names_a_thing(node.name) and (not child.name or _continues(child.name, node.name))
+
+
+def _is_thing_beside(child: AuthoredNode, own: Member) -> bool:
+    """Return True if a leaf is a thing that the author put on another, as a mug on a table: it has a noun of its own,
+    and is outside the box of the other's own mesh. Both boxes are along the axes of the node."""
+    if _continues(child.name, own.name) or not names_another_thing(child.name, own.name):
+        return False
+    (low, high), (own_low, own_high) = Member(child.name, child.matrix, child.pieces).box, own.box
+    slack = _PART_GAP * float(np.linalg.norm(own_high - own_low))
+    return bool((low >= own_high - slack).any() or (high <= own_low + slack).any())
 
 
 def _joined_parts(node: AuthoredNode, frame: Matrix) -> list[AuthoredNode]:

@@ -37,6 +37,12 @@ def has_own_noun(name: str, group_name: str) -> bool:
     return bool(head) and not _singulars(head) & _PART_WORDS
 
 
+def names_another_thing(name: str, other: str) -> bool:
+    """Return True if a name ends in a noun that names no part and is no word of the other name: `Mug` beside `Table`,
+    not `chair` beside `chairDesk`."""
+    return has_own_noun(name, other) and _head(name) not in _words(other)
+
+
 def names_part(name: str, group_name: str) -> bool:
     """Return True if a name is that of a part or a material, or repeats the group's noun: `chair.001` of `Desk Chair`.
 

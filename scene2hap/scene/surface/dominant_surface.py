@@ -67,7 +67,8 @@ _FILLED_PLATE = 2 / 3
 # a plate may be no rectangle if fewer than this share of the rays in its box meet it. An outline is used if ...
 _FULL = 0.97
 _SEEN = 0.1  # ... its area differs from the level area that rays see by less than this share of its box ...
-_LIKE = 0.5, 1.5  # ... and its area is between these multiples of the rectangle of medians
+_LIKE = 0.5, 1.5  # ... and its area is between these multiples of the rectangle of medians ...
+_SAME_EXTENT = 1e-3  # ... or the rectangle is its box, to this share of the edges
 _SAME_DIRECTION_RAD = np.deg2rad(1.0)
 _SIDES_TRIED = 12
 # Fixed cost of a mesh and cost of each triangle, in tests of a ray against a triangle (measured: 1.5 ms, 1 us and
@@ -358,7 +359,9 @@ def _placed(
 def _own_outline(outline: Outline, size: Floats, middle: Floats, *, is_turned: bool) -> Outline | None:
     """Return the outline from the plate's corner; None if it is a rectangle, or does not fit the plate."""
     share = outline.area_m2 / math.prod(outline.extent_m)
-    if share > _FULL or not _LIKE[0] < outline.area_m2 / float(size[0] * size[1]) < _LIKE[1]:
+    # A narrow L fills less than half of its box, which is its rectangle.
+    is_box = bool(np.allclose(sorted(outline.extent_m), sorted(size[:2]), rtol=_SAME_EXTENT))
+    if share > _FULL or not (is_box or _LIKE[0] < outline.area_m2 / float(size[0] * size[1]) < _LIKE[1]):
         return None
     if is_turned:
         outline = Outline(np.array(ring)[:, ::-1] * (1.0, -1.0) for ring in outline.rings_m)

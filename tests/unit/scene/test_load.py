@@ -151,3 +151,11 @@ def test_turned_and_scaled_scene_round_trips_through_json_bit_exactly(tmp_path: 
     for before, after in zip(scene.objects, again.objects, strict=True):
         assert after.geometry.mesh.digest == before.geometry.mesh.digest
         assert after.geometry.mesh.vertices_m.tobytes() == before.geometry.mesh.vertices_m.tobytes()
+
+
+@pytest.mark.parametrize("suffix", [".glb", ".gltf", ".obj", ".stl", ".json", ".urdf"])
+def test_a_pointer_of_git_lfs_says_so(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"room{suffix}"
+    path.write_bytes(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12\n")
+    with pytest.raises(SceneFormatError, match=r"'room\..*' is a pointer of Git LFS.*run `git lfs pull`"):
+        load_scene(path)

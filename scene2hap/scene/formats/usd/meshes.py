@@ -19,7 +19,7 @@ from pxr import UsdGeom
 
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits, solids
-from scene2hap.scene.formats.usd.polygons import triangulated
+from scene2hap.scene.formats.polygons import triangulated
 from scene2hap.scene.formats.usd.values import floats, integers, positive, value
 
 Floats = NDArray[np.float64]

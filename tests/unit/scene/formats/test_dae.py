@@ -239,3 +239,32 @@ def test_unreadable_texture_warns(tmp_path: Path, image: str, reason: str) -> No
 def test_effect_without_colours_is_accepted(tmp_path: Path) -> None:
     painted, _ = load_scene(textured(tmp_path, ""), unit_m=1.0).objects
     assert len(looks(painted).materials) == 1
+
+
+def worktop(faces: str) -> str:
+    """A document with an L-shaped face as its geometry."""
+    text = dae(f'<node name="top">{FLAT}</node>').replace('count="3" stride', 'count="6" stride')
+    text = text.replace('count="9">0 0 0 1 0 0 0 2 0<', 'count="18">0 0 0 3 0 0 3 0.6 0 0.6 0.6 0 0.6 2 0 0 2 0<')
+    before, _, rest = text.partition("<triangles")
+    return before + faces + rest.partition("</triangles>")[2]
+
+
+VERTEX = '<input semantic="VERTEX" source="#v" offset="0"/>'
+
+
+@needs_pycollada
+@pytest.mark.parametrize("corners", ["0 1 2 3 4 5", "1 2 3 4 5 0", "4 5 0 1 2 3"])
+@pytest.mark.parametrize("kind", ["polylist", "polygons"])
+def test_concave_faces_are_cut_within_their_outline(tmp_path: Path, kind: str, corners: str) -> None:
+    count = "<vcount>6</vcount>" if kind == "polylist" else ""
+    faces = f'<{kind} count="1">{VERTEX}{count}<p>{corners}</p></{kind}>'
+    mesh = load_scene(write(tmp_path, worktop(faces)), unit_m=1.0).object("top").geometry.mesh
+    a, b, c = mesh.vertices_m[mesh.faces].transpose(1, 0, 2)
+    assert np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2 == pytest.approx(2.64)
+
+
+@needs_pycollada
+@pytest.mark.parametrize("faces", ["<vcount>6</vcount><p>0 1 2 3 4 9</p>", "<vcount>7</vcount><p>0 1 2 3 4 5</p>"])
+def test_broken_polygons_are_refused(tmp_path: Path, faces: str) -> None:
+    with pytest.raises(SceneFormatError):
+        load_scene(write(tmp_path, worktop(f'<polylist count="1">{VERTEX}{faces}</polylist>')))

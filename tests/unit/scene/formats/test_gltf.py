@@ -314,10 +314,32 @@ def test_cameras_lights_and_bones_are_not_objects(tmp_path: Path) -> None:
     assert [item.id for item in load_scene(gltf.write(tmp_path / "scene.glb")).objects] == ["cube"]
 
 
+@pytest.mark.parametrize("is_required", [False, True])
+def test_hidden_nodes_and_all_below_are_left_out(tmp_path: Path, is_required: bool) -> None:
+    gltf = one_cube()
+    inner = gltf.node("inner", mesh=0)
+    hidden = {"KHR_node_visibility": {"visible": False}}
+    gltf.node("ghost", mesh=0, children=[inner], extensions=hidden, root=True)
+    gltf.node("shown", mesh=0, extensions={"KHR_node_visibility": {"visible": True}}, root=True)
+    if is_required:
+        gltf.header["extensionsRequired"] = ["KHR_node_visibility"]
+    assert [item.id for item in load_scene(gltf.write(tmp_path / "scene.glb")).objects] == ["cube", "shown"]
+
+
 def test_required_extensions_without_effect_on_geometry_are_accepted(tmp_path: Path) -> None:
     gltf = one_cube()
     gltf.header["extensionsRequired"] = ["KHR_materials_unlit", "EXT_texture_webp", "KHR_texture_transform"]
     assert len(load_scene(gltf.write(tmp_path / "scene.glb")).objects) == 1
+
+
+def test_a_mesh_of_more_indices_than_the_limit_of_triangles_is_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(limits, "MAX_TRIANGLES", 12)  # a cube has 12 triangles and 36 indices
+    assert len(load_scene(one_cube().write(tmp_path / "scene.glb")).objects) == 1
+    monkeypatch.setattr(limits, "MAX_TRIANGLES", 11)
+    with pytest.raises(SceneError, match="MAX_TRIANGLES"):
+        load_scene(one_cube().write(tmp_path / "scene.glb"))
 
 
 def test_images_are_not_read(tmp_path: Path) -> None:

@@ -38,6 +38,17 @@ def test_polygons_become_fans() -> None:
     assert corners(SQUARE + "f 1 2 3 4") == [[[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1, 0]]]
 
 
+@pytest.mark.parametrize("first", range(6))
+def test_a_concave_face_is_cut_within_its_outline(first: int) -> None:
+    # The top of an L-shaped worktop, which Blender exports as one face that may begin at any corner.
+    outline = [(0, 0), (3, 0), (3, 0.6), (0.6, 0.6), (0.6, 2), (0, 2)]
+    outline = outline[first:] + outline[:first]
+    text = "".join(f"v {x} {y} 0\n" for x, y in outline) + "f 1 2 3 4 5 6\n"
+    a, b, c = np.array(corners(text)).transpose(1, 0, 2)
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    assert areas.sum() == pytest.approx(2.64)
+
+
 def test_edges_written_as_faces_are_left_out() -> None:
     assert corners(SQUARE + "f 1 2\nf 1 2 3\nf 4\n") == [[[0, 0, 0], [1, 0, 0], [1, 1, 0]]]
 

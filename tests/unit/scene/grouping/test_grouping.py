@@ -358,3 +358,71 @@ def test_mass_is_assigned_only_when_the_node_is_a_whole_object() -> None:
     assert masses(group("room", fridge), how={"door": "lid"}) == {"lid": 2.0, "fridge": None}
     assert masses(fridge, replace(door, name="gate"), how={"fridge": "both", "gate": "both"}) == {"both": None}
     assert masses(group("room", fridge), how=9) == {"fridge": None, "door": 2.0}
+
+
+@pytest.mark.parametrize("at", [1.0, 0.99, -1.0])
+def test_things_that_stand_on_a_mesh_are_objects(at: float) -> None:
+    table = mesh("Table", mesh("Mug", at=at), mesh("Desk Lamp", at=at), mesh("Leg.001", at=at), at=5.0)
+    assert objects(table) == {"Table": ["Table", "Leg.001"], "Mug": ["Mug"], "Desk Lamp": ["Desk Lamp"]}
+
+
+@pytest.mark.parametrize(
+    ("above", "name", "at"),
+    [
+        ("washer", "drum", 0.3),  # inside
+        ("Table", "Table_Mug", 1.0),  # continues the name
+        ("chairDesk(Clone)", "chair", 1.0),  # repeats a word of it
+        ("Toilet", "Lid", 1.0),  # a part
+        ("Table", "Cube.001", 1.0),  # says nothing
+        ("Table", "", 1.0),
+    ],
+)
+def test_other_leaves_stay_part_of_a_mesh(above: str, name: str, at: float) -> None:
+    assert list(objects(mesh(above, mesh(name, at=at)))) == [above]
+
+
+# -- what engines do not draw ----------------------------------------------------------------------------------------
+
+
+def test_of_levels_of_detail_the_finest_is_read() -> None:
+    tree = group("Room", mesh("Lamp_LOD0"), mesh("Lamp_LOD1"), group("Chair", *(mesh(f"Chair_LOD{i}") for i in (2, 1))))
+    assert objects(tree) == {"Lamp_LOD0": ["Lamp_LOD0"], "Chair": ["Chair_LOD1"]}
+    assert objects(group("Room", mesh("Vase"), mesh("Vase_LOD1.001"), mesh("MugLOD0"), mesh("MugLOD1"))) == {
+        "Vase": ["Vase"],
+        "MugLOD0": ["MugLOD0"],
+    }
+    assert objects(mesh("Chair", mesh("LOD1"), mesh("Chair_LOD2"))) == {"Chair": ["Chair"]}
+
+
+def test_copies_of_one_level_are_all_read() -> None:
+    assert list(objects(group("Room", mesh("A_LOD0"), mesh("A_LOD0.001"), mesh("B_LOD1"), mesh("Melod2")))) == [
+        "A_LOD0",
+        "A_LOD0.001",
+        "B_LOD1",
+        "Melod2",
+    ]
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["UCX_Table_01", "UBX_Table", "Table-colonly", "Table-convcolonly.001", "TableCollider", "Table_Collision_Mesh"],
+)
+def test_collision_shapes_are_no_objects(name: str) -> None:
+    assert objects(group("Room", mesh("Table"), mesh(name))) == {"Table": ["Table"]}
+    assert objects(group("Room", group("Crate", mesh("visuals"), group("collisions", mesh("box"))))) == {
+        "Crate": ["visuals"]
+    }
+
+
+def test_what_only_sounds_like_a_collision_shape_is_read() -> None:
+    names = ["Wall-col", "Collie", "Collision course board", "ucx_x", "collider" + "1" * 200 + "x"]
+    assert list(objects(group("Room", *map(mesh, names)))) == names
+
+
+def test_undrawn_nodes_are_read_if_they_are_asked_for_or_all_that_is_there() -> None:
+    tree = group("Room", mesh("Table"), group("Colliders", mesh("UCX_Table")))
+    assert list(objects(tree, how="leaf")) == ["Table", "UCX_Table"]
+    assert list(objects(tree, how={"UCX_Table": "block"})) == ["block", "Table"]
+    assert list(objects(mesh("UCX_Table"))) == ["UCX_Table"]
+    link = replace(group("link", mesh("link_collision")), is_object=True)
+    assert objects(group("robot", link, mesh("mug"))) == {"link": ["link_collision"], "mug": ["mug"]}

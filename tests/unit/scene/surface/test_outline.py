@@ -145,6 +145,17 @@ def test_round_table_top_has_a_round_outline() -> None:
     assert (x1 - x0, y1 - y0) == pytest.approx((0.9, 0.9), rel=0.01)
 
 
+def test_a_narrow_l_keeps_its_outline() -> None:
+    # A worktop of 60 cm along two walls fills 44 % of its box.
+    ring = np.array([(0, 0), (3, 0), (3, 0.6), (0.6, 0.6), (0.6, 2), (0, 2)])
+    cap = np.array([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5)])
+    lower, upper = np.insert(ring, 2, 0.0, axis=1), np.insert(ring, 2, 0.04, axis=1)
+    sides = [face for i in range(6) for j in [(i + 1) % 6] for face in ((i, j, 6 + j), (i, 6 + j, 6 + i))]
+    surface = dominant_surface(TriMesh(np.concatenate([lower, upper]), np.concatenate([cap[:, ::-1], cap + 6, sides])))
+    assert surface.outline is not None
+    assert surface.outline.area_m2 == pytest.approx(2.64, rel=2e-3)
+
+
 def test_l_shape_keeps_its_outline_in_any_pose() -> None:
     slabs = [trimesh.creation.box((1.6, 0.6, 0.03)), trimesh.creation.box((0.6, 1.0, 0.03))]
     slabs[1].apply_translation((-0.5, 0.8, 0.0))

@@ -264,7 +264,7 @@ def area_of_outline(points: Any) -> float:
 @pytest.mark.parametrize("normal", [(0, 0, 1), (0, 0, -1), (1, 2, 3)])
 def test_concave_faces_are_covered_once(outline: list[Any], first: int, normal: tuple[float, ...]) -> None:
     """All triangles have the winding of their face, and their areas sum to its area."""
-    from scene2hap.scene.formats.usd.polygons import triangulated
+    from scene2hap.scene.formats.polygons import triangulated
 
     n, up = len(outline), np.array(normal, float) / np.linalg.norm(normal)
     side = np.cross(up, [1.0, 0.3, 0.2])
