@@ -24,7 +24,14 @@ from scene2hap.audio.recorded_runs import recorded_runs
 from scene2hap.audio.select import Choice, explain_choice
 from scene2hap.audio.sources.chain import gather
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.fingerprint import OWN_CLIP, actuator_digest, converter_name, differences, made_by, request_digests
+from scene2hap.baking.fingerprint import (
+    OWN_CLIP,
+    actuator_digest,
+    converter_name,
+    differences,
+    made_by,
+    request_digests,
+)
 from scene2hap.baking.recorded_times import NO_RUNS, Runs, runs_of, shown_runs
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.common.blas_threads import one_blas_thread
@@ -144,8 +151,9 @@ def _warn_of_other_actuator(parts: Sequence[_Part], actuator: ActuatorProfile) -
         if part.clip is None and part.earlier is not None and part.earlier.fingerprint.get("actuator", now) != now
     )
     if others:
+        named = ", ".join(map(repr, others))
         warn_of(
-            f"locked loops are kept, which were made for another actuator than {actuator.name!r}: {', '.join(map(repr, others))}. "
+            f"locked loops are kept, which were made for another actuator than {actuator.name!r}: {named}. "
             "They may be felt too strongly or too weakly. Unlock these objects, or use the earlier actuator.",
             BundleWarning,
         )
