@@ -183,7 +183,10 @@ def peak_frequency_hz(
         return None
     left, centre, right = m[bins - 1], m[bins], m[bins + 1]
     is_peak = (centre >= left) & (centre >= right)
-    height = centre if weight_db is None else centre * 10 ** (weight_db(bins * bin_hz) / 20)
+    height = centre
+    if weight_db is not None:
+        f = np.asarray(bins * bin_hz, dtype=np.float64)
+        height = np.asarray(centre * 10 ** (weight_db(f) / 20), dtype=np.float64)
     k = int(bins[np.argmax(np.where(is_peak, height, 0.0) if is_peak.any() else height)])
     return float((k + peak_offset(m[k - 1 : k + 2])) * bin_hz)
 
