@@ -9,6 +9,7 @@ is that of the sound as it is heard (`heard`).
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import scipy
@@ -24,6 +25,7 @@ from scene2hap.common import checks
 from scene2hap.errors import AudioError
 
 Signal = NDArray[np.float64]
+Weight = Callable[[Signal], Signal]
 
 TRIM_DB = 40.0
 """Frames this far below the loudest one are silence at the ends [dB]; assumed, as in most trimming programs."""
@@ -126,20 +128,27 @@ def spectral_flatness(
 
 
 def dominant_frequency_hz(
-    samples: ArrayLike, sample_rate_hz: float, *, range_hz: tuple[float, float] = TACTILE_RANGE_HZ
+    samples: ArrayLike,
+    sample_rate_hz: float,
+    *,
+    range_hz: tuple[float, float] = TACTILE_RANGE_HZ,
+    weight_db: Weight | None = None,
 ) -> float:
     """Return the frequency of the strongest peak of a sound's spectrum within `range_hz` [Hz].
 
     The method is a Hann-windowed Fourier transform of the whole sound, zero-padded to twice its length, and a parabola
     through the logarithms of the three bins around the peak. For a tone in noise the error is below 0.1 Hz from 0.25 s
     on. Only true peaks count, not the flank of a louder component outside the range, unless the range has no peak.
+
+    Parameters: weight_db : returns levels [dB] that are added at frequencies > 0 [Hz], in their shape, before peaks are
+    compared; None for none.
     Raises: AudioError: the samples are empty or all equal, or the range does not begin below half the rate.
     """
-    return dominant_frequencies_hz(samples, sample_rate_hz, range_hz)[0]
+    return dominant_frequencies_hz(samples, sample_rate_hz, range_hz, weight_db=weight_db)[0]
 
 
 def dominant_frequencies_hz(
-    samples: ArrayLike, sample_rate_hz: float, *ranges_hz: tuple[float, float]
+    samples: ArrayLike, sample_rate_hz: float, *ranges_hz: tuple[float, float], weight_db: Weight | None = None
 ) -> tuple[float, ...]:
     """Return `dominant_frequency_hz` for several ranges, from one spectrum [Hz]. Raises: AudioError: see there."""
     x, rate = _sounding(samples, sample_rate_hz)
@@ -149,7 +158,7 @@ def dominant_frequencies_hz(
     magnitude = np.abs(scipy.fft.rfft(x * hann(len(x)), n))
     found = []
     for low, high in ranges_hz:
-        frequency_hz = peak_frequency_hz(magnitude, rate / n, (low, high))
+        frequency_hz = peak_frequency_hz(magnitude, rate / n, (low, high), weight_db)
         if frequency_hz is None:
             raise AudioError(
                 f"a sound of {len(x) / rate:g} s does not resolve {low:g} to {high:g} Hz. "
@@ -159,10 +168,13 @@ def dominant_frequencies_hz(
     return tuple(found)
 
 
-def peak_frequency_hz(magnitude: ArrayLike, bin_hz: float, range_hz: tuple[float, float]) -> float | None:
+def peak_frequency_hz(
+    magnitude: ArrayLike, bin_hz: float, range_hz: tuple[float, float], weight_db: Weight | None = None
+) -> float | None:
     """Return the frequency of the highest peak of a magnitude spectrum (n_bins,), with bins every `bin_hz` from 0 Hz.
 
-    It is the maximum of a parabola through the logarithms of three bins; None if the range has no bin.
+    It is the maximum of a parabola through the logarithms of three bins; None if the range has no bin. With `weight_db`
+    (see `dominant_frequency_hz`) it is the peak that is highest after weighting, at its place before weighting.
     """
     m = np.asarray(magnitude, dtype=np.float64)
     low, high = range_hz
@@ -171,7 +183,11 @@ def peak_frequency_hz(magnitude: ArrayLike, bin_hz: float, range_hz: tuple[float
         return None
     left, centre, right = m[bins - 1], m[bins], m[bins + 1]
     is_peak = (centre >= left) & (centre >= right)
-    k = int(bins[np.argmax(np.where(is_peak, centre, 0.0) if is_peak.any() else centre)])
+    height = centre
+    if weight_db is not None:
+        f = np.asarray(bins * bin_hz, dtype=np.float64)
+        height = np.asarray(centre * 10 ** (weight_db(f) / 20), dtype=np.float64)
+    k = int(bins[np.argmax(np.where(is_peak, height, 0.0) if is_peak.any() else height)])
     return float((k + peak_offset(m[k - 1 : k + 2])) * bin_hz)
 
 

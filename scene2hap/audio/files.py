@@ -69,30 +69,42 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
     """
     path = Path(path)
     with opened_sound(path) as file:
-        rate = int(file.samplerate)
-        if file.frames > MAX_FILE_S * rate:
-            raise AudioError(
-                f"{path} lasts {file.frames / rate:.0f} s; it must be at most {MAX_FILE_S:.0f} s. "
-                "Cut out the part you want."
-            )
-        blocks: list[Samples] = []
-        n_read, mixdown = 0, Mixdown()
-        while len(block := file.read(_BLOCK_FRAMES, dtype="float32", always_2d=True)):
-            require_finite(path, block, n_read)
-            n_read += len(block)
-            blocks.append(mixdown.mean(block).astype(np.float32))
+        rate, mixdown = int(file.samplerate), Mixdown()
+        blocks = [mixdown.mean(block).astype(np.float32) for block in _blocks(path, file)]
         strongest = mixdown.strongest
         if strongest is not None:
             file.seek(0)
             blocks = [
                 block[:, strongest].copy() for block in file.blocks(_BLOCK_FRAMES, dtype="float32", always_2d=True)
             ]
-    if not blocks:
-        raise AudioError(f"{path} has no samples. Use a sound that is longer than 0 s.")
     try:
         return AudioClip(np.concatenate(blocks), rate, credit or Credit(path.stem, "unknown", "unknown"))
     except AudioError as cause:
         raise AudioError(f"{path}: {cause}") from cause
+
+
+def read_channels(path: str | Path) -> tuple[Samples, int]:
+    """Return all channels of a sound file (n_samples, n_channels), and its rate [Hz]. Raises: AudioError: as
+    `read_clip`."""
+    path = Path(path)
+    with opened_sound(path) as file:
+        return np.concatenate([*_blocks(path, file)]), int(file.samplerate)
+
+
+def _blocks(path: Path, file: soundfile.SoundFile) -> Iterator[Samples]:
+    """Yield the samples of an open file in blocks (n, n_channels). Raises: AudioError: as `read_clip`."""
+    if file.frames > MAX_FILE_S * file.samplerate:
+        raise AudioError(
+            f"{path} lasts {file.frames / file.samplerate:.0f} s; it must be at most {MAX_FILE_S:.0f} s. "
+            "Cut out the part you want."
+        )
+    n_read = 0
+    while len(block := file.read(_BLOCK_FRAMES, dtype="float32", always_2d=True)):
+        require_finite(path, block, n_read)
+        n_read += len(block)
+        yield block
+    if n_read == 0:
+        raise AudioError(f"{path} has no samples. Use a sound that is longer than 0 s.")
 
 
 class Mixdown:

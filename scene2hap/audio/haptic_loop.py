@@ -74,7 +74,8 @@ class HapticLoop:
     """An audible and a tactile loop with the same seam, length and rate, so that they stay synchronous.
 
     `frequency_raw_hz` is the peak of the audible loop's spectrum, which the paper uses in its attenuation law;
-    `frequency_tactile_hz` is the peak of the tactile one, after conversion.
+    `frequency_tactile_hz` is the peak of the tactile one, after conversion, that is farthest over the threshold of
+    touch.
     `source` is the sound before it was cut, None if unknown or for a person's own clip, which the bundle stores;
     `fingerprint` has a digest of each input of the loops, empty if unknown; `felt` is None if unknown.
     `start_up` and `wind_down` are the machine's start and stop in the recording, None if it has none.

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.audio.actuators import response_db
+from scene2hap.audio.analysis import dominant_frequency_hz
 from scene2hap.audio.clip import Samples
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ, threshold_db
 from scene2hap.common import checks
@@ -120,6 +121,15 @@ def felt_level_db(samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorP
     return _level_db(felt_spectrum(samples, sample_rate_hz, actuator)[1])
 
 
+def most_felt_hz(samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorProfile | None = None) -> float:
+    """Return the frequency of a loop's peak that is farthest over the threshold of touch [Hz].
+
+    It is not always the strongest: at 35 Hz touch needs six times the amplitude that it needs at 84 Hz.
+    Raises: AudioError: as `analysis.dominant_frequency_hz`.
+    """
+    return dominant_frequency_hz(samples, sample_rate_hz, weight_db=lambda f: _over_threshold_db(f, actuator))
+
+
 def felt_level_of_spectrum_db(
     spectrum: NDArray[np.complex128], n_samples: int, sample_rate_hz: float, actuator: ActuatorProfile | None = None
 ) -> float:
@@ -134,8 +144,12 @@ def _felt(
     inside = (f >= TACTILE_RANGE_HZ[0]) & (f <= min(TACTILE_RANGE_HZ[1], 0.5 * sample_rate_hz))
     f = f[inside]
     amplitude = 2.0 * np.abs(spectrum[inside]) / n_samples
-    weight_db = (response_db(actuator, f) if actuator else 0.0) - threshold_db(f)
-    return f, amplitude**2 * 10 ** (weight_db / 10)
+    return f, amplitude**2 * 10 ** (_over_threshold_db(f, actuator) / 10)
+
+
+def _over_threshold_db(f: NDArray[np.float64], actuator: ActuatorProfile | None) -> NDArray[np.float64]:
+    """Return the level at which full scale is felt at frequencies (n,) [dB over the threshold of touch]."""
+    return (response_db(actuator, f) if actuator else 0.0) - threshold_db(f)
 
 
 def _level_db(felt: NDArray[np.float64]) -> float:

@@ -25,7 +25,7 @@ from scene2hap.audio.felt_loop import Plan
 from scene2hap.audio.files import sound_digest
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.baking.config import BakeConfig
-from scene2hap.haptics import VibrationDescription
+from scene2hap.haptics import ActuatorProfile, VibrationDescription
 
 OWN_CLIP = "own clip"
 """Replaces the digests of words and sources if a person gave the sound."""
@@ -59,11 +59,16 @@ def made_by(clip: AudioClip, converter: str, plan: Plan) -> dict[str, str]:
     return {
         "sound": sound_digest(clip),
         "converter": converter,
-        "actuator": _name(asdict(context.actuator)),
+        "actuator": actuator_digest(context.actuator),
         "intensity": f"{context.intensity:g}",
         # Rounded to 0.01 Hz and 0.01 dB: machines differ in the last digits, and smaller differences cannot be felt.
         "plan": _name([_rounded(places), _rounded(neighbours_hz)]),
     }
+
+
+def actuator_digest(actuator: ActuatorProfile) -> str:
+    """Return the digest of an actuator."""
+    return _name(asdict(actuator))
 
 
 def differences(earlier: Mapping[str, str], now: Mapping[str, str]) -> tuple[str, ...]:

@@ -24,12 +24,19 @@ from scene2hap.audio.recorded_runs import recorded_runs
 from scene2hap.audio.select import Choice, explain_choice
 from scene2hap.audio.sources.chain import gather
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.fingerprint import OWN_CLIP, converter_name, differences, made_by, request_digests
+from scene2hap.baking.fingerprint import (
+    OWN_CLIP,
+    actuator_digest,
+    converter_name,
+    differences,
+    made_by,
+    request_digests,
+)
 from scene2hap.baking.recorded_times import NO_RUNS, Runs, runs_of, shown_runs
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.common.blas_threads import one_blas_thread
 from scene2hap.common.warning import warn_of
-from scene2hap.haptics import ObjectHaptics, SourceState, VibrationDescription
+from scene2hap.haptics import ActuatorProfile, ObjectHaptics, SourceState, VibrationDescription
 
 Progress = Callable[[str, str, int, int], None]
 """Called with (stage, step, number done, total number)."""
@@ -122,6 +129,8 @@ async def make_loops(
     with one_blas_thread:
         plans = await asyncio.to_thread(plan_scene, sources, config.tactile, config.actuator, config.spread, standing)
         made = await _made(parts, plans, config, tell)
+    if any({"actuator", *_NEW}.intersection(reasons) for _, reasons in made):
+        _warn_of_other_actuator(parts, config.actuator)
     loops: dict[str, dict[str, HapticLoop]] = {}
     for part, (loop, reasons) in zip(parts, made, strict=True):
         loops.setdefault(part.object_id, {})[part.state.name] = loop
@@ -131,6 +140,23 @@ async def make_loops(
         known = before.loops.get(object_id)
         sounds.loops[object_id] = known if known is not None and _is_same(known, states) else states
     return sounds
+
+
+def _warn_of_other_actuator(parts: Sequence[_Part], actuator: ActuatorProfile) -> None:
+    """Warn of locked loops that were made for another actuator. Warns: BundleWarning."""
+    now = actuator_digest(actuator)
+    others = dict.fromkeys(
+        part.object_id
+        for part in parts
+        if part.clip is None and part.earlier is not None and part.earlier.fingerprint.get("actuator", now) != now
+    )
+    if others:
+        named = ", ".join(map(repr, others))
+        warn_of(
+            f"locked loops are kept, which were made for another actuator than {actuator.name!r}: {named}. "
+            "They may be felt too strongly or too weakly. Unlock these objects, or use the earlier actuator.",
+            BundleWarning,
+        )
 
 
 async def _made(

@@ -145,7 +145,7 @@ def _bundle_row(bundle: HapticBundle, object_id: str) -> tuple[str, ...]:
 
 
 def place_of(loop: HapticLoop) -> str:
-    """Format the strongest frequency of a loop, its origin if moved by more than a hertz, and its roughness [Hz]."""
+    """Format the most felt frequency of a loop, its origin if moved by more than a hertz, and its roughness [Hz]."""
     felt, place = loop.felt, f"{loop.frequency_tactile_hz:.0f}"
     if felt is not None and felt.is_moved:
         place += f" from {felt.own_hz:.0f}"

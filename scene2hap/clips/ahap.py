@@ -33,6 +33,8 @@ MAX_CURVE_POINTS = 16
 TRANSIENT_DIP = 0.8
 
 _INTENSITY, _SHARPNESS = "HapticIntensity", "HapticSharpness"
+_NEUTRAL = {"AttackTime": 0.0, "DecayTime": 0.0, "ReleaseTime": 0.0, "Sustained": 1.0}
+"""Values of parameters of an event that change nothing."""
 _MOST_EVENTS = 200
 """Most continuous events of one file (assumed: ten times as many as a clip of ten minutes needs)."""
 _DECIMALS = 9
@@ -56,13 +58,24 @@ class _Event:
 
 @dataclass
 class _Control:
-    """The points of all curves of one kind, in order of time, and the value before them.
+    """The points of all curves and parameters of one kind, in order of time, and the value before them.
 
     Times are from the file's beginning.
     """
 
     neutral: float
+    parts: list[Points] = field(default_factory=list)
     points: Points = field(default_factory=list)
+
+    def join(self) -> None:
+        """Join the parts, each a curve or a single parameter. Between two parts the last value holds, as on the phone;
+        a line from one to the next would be a ramp that nobody drew."""
+        rows = [(time, value, i == 0) for part in self.parts for i, (time, value) in enumerate(part)]
+        rows.sort(key=_time_of)  # a file may have its curves in any order
+        for time, value, begins in rows:
+            if begins and self.points and self.points[-1] != (time, value):
+                self.points.append((time, self.points[-1][1]))
+            self.points.append((time, value))
 
     def at(self, time_s: float, *, before: bool = False) -> float:
         """Return the value at a time, or just `before` it. Before the first curve it is the neutral value."""
@@ -96,7 +109,7 @@ def read_ahap(path: Path) -> HapticClip:
     parts = [_pattern(read_fields(part, needed="Pattern", kind="AHAP")) for part in _pair(path)]
     ignored = sorted(set[str]().union(*(part.ignored for part in parts)))
     if ignored:
-        warning = f"{path}: {', '.join(ignored)} in it is not played; haptic events alone are."
+        warning = f"{path}: {', '.join(ignored)} in it is not played; intensity and sharpness of haptic events are."
         warn_of(warning, ClipWarning)
     transients = tuple(sorted((one for part in parts for one in _felt(part)), key=lambda one: one.time_s))
     main = next((part for part in parts if part.continuous), parts[0])
@@ -188,7 +201,7 @@ def _pattern(fields: Fields) -> _Pattern:
         problem = f"has {number} continuous events; it must have at most {_MOST_EVENTS}. Split the clip"
         raise fields.error("Pattern", problem)
     for control in (pattern.intensity, pattern.sharpness):
-        control.points.sort(key=_time_of)  # a file may have its curves in any order
+        control.join()
     return pattern
 
 
@@ -196,7 +209,11 @@ def _read_event(event: Fields, pattern: _Pattern) -> None:
     kind, start = event.text("EventType"), _time(event)
     values = {_INTENSITY: 1.0, _SHARPNESS: 0.5}  # Apple's defaults
     for one in event.items("EventParameters", MAX_POINTS) if "EventParameters" in event else ():
-        values[one.text("ParameterID")] = _unit(_value(one))
+        name, value = one.text("ParameterID"), _value(one)
+        if name in values:
+            values[name] = _unit(value)
+        elif value != _NEUTRAL.get(name):
+            pattern.ignored.add(f"the parameter {name!r} of an event")
     if kind == "HapticContinuous":
         duration_s = min(event.number("EventDuration", at_most=MAX_CLIP_S, unit="s"), MAX_EVENT_S)
         if duration_s > 0.0:
@@ -219,9 +236,9 @@ def _read_curve(curve: Fields, pattern: _Pattern) -> None:
 
 def _add(pattern: _Pattern, control: str, points: Points) -> None:
     if control == f"{_INTENSITY}Control":
-        pattern.intensity.points += points
+        pattern.intensity.parts.append(points)
     elif control == f"{_SHARPNESS}Control":
-        pattern.sharpness.points += points
+        pattern.sharpness.parts.append(points)
     else:
         pattern.ignored.add(f"the parameter {control!r}")
 

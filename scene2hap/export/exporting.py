@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from scene2hap.audio.files import read_clip
+from scene2hap.audio.files import read_channels
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.sounds import file_stem, file_stems
 from scene2hap.clips.reading import is_haptic_clip, read_haptic_clip
@@ -34,6 +34,7 @@ from scene2hap.session.touch_track import TouchTrack
 from scene2hap.session.track_player import play_track
 
 ALL = "all"
+_CHANNEL_NAMES = {1: [""], 2: ["left", "right"]}
 Progress = Callable[[str, str, int, int], None]
 Kinds = str | Mapping[str, Any] | Exporter | Sequence[str | Mapping[str, Any] | Exporter]
 
@@ -94,17 +95,22 @@ def export_clip(
 ) -> ExportReport:
     """Write one haptic clip (.haptic, .ahap) or one sound file in other formats. The curves of a clip are unchanged.
 
+    A sound file is taken as a vibration, as `convert` and `render` write it. Two channels are the left and the right
+    hand, more are "channel_1" and so on. A file that peaks above full scale is scaled down to it.
+
     Raises: AudioError, ClipError: the file cannot be read; and as `export_bundle`.
     """
     path = checks.path("path", path, error=ExportError)
     exporters = _exporters(to)
     if is_haptic_clip(path):
         clip = read_haptic_clip(path)
-        channel = Channel(np.clip(synthesize(clip), -1.0, 1.0), RATE_HZ, clip=clip)
+        channels = {"": Channel(np.clip(synthesize(clip), -1.0, 1.0), RATE_HZ, clip=clip)}
     else:
-        sound = read_clip(path)
-        channel = Channel(np.clip(sound.samples, -1.0, 1.0), sound.sample_rate_hz)
-    track = Track(file_stem(path.stem), {"": channel})
+        samples, rate = read_channels(path)
+        samples = samples / max(1.0, float(np.abs(samples).max()))  # one factor: clipping would distort
+        names = _CHANNEL_NAMES.get(samples.shape[1], [f"channel_{i + 1}" for i in range(samples.shape[1])])
+        channels = {name: Channel(one, rate) for name, one in zip(names, samples.T, strict=True)}
+    track = Track(file_stem(path.stem), channels)
     return _write([track], exporters, checks.path("folder", folder, error=ExportError), None, progress)
 
 

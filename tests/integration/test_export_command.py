@@ -24,6 +24,7 @@ from scene2hap import (
     export_clip,
 )
 from scene2hap.cli import main
+from scene2hap.clips.haptic_format import read_haptic
 from scene2hap.demo import tour_path
 from scene2hap.errors import ClipError, ConfigError, ExportError
 from scene2hap.export import EXPORTS, Exported, Track
@@ -124,12 +125,25 @@ def test_one_clip_is_turned_into_other_formats_and_back(tmp_path: Path) -> None:
         assert found["frequency"][0]["frequency"] == pytest.approx(0.25, abs=1e-6)
 
 
-def test_a_sound_beyond_full_scale_is_clipped(tmp_path: Path) -> None:
+def test_both_hands_of_a_sound_file_are_exported(tmp_path: Path) -> None:
+    """In an earlier version a tour that `render` wrote was exported as the mean of both hands."""
+    t = np.arange(8000) / 8000
+    hands = np.stack([0.5 * np.sin(2 * np.pi * 100.0 * t), 0.2 * np.sin(2 * np.pi * 150.0 * t)], axis=1)
+    soundfile.write(tmp_path / "tour.wav", hands, 8000, subtype="PCM_24")
+    export_clip(tmp_path / "tour.wav", tmp_path / "out", ["haptic", {"kind": "wav", "sample_rate_hz": 8000}])
+    played, _ = soundfile.read(tmp_path / "out" / "wav" / "tour.wav")
+    np.testing.assert_allclose(played, hands, atol=1e-6)
+    for hand, amplitude in (("left", 0.5), ("right", 0.2)):
+        clip = read_haptic(tmp_path / "out" / "haptic" / f"tour.{hand}.haptic")
+        assert clip.amplitude.at([0.5])[0] == pytest.approx(amplitude, rel=0.06)
+
+
+def test_a_sound_beyond_full_scale_is_scaled_down(tmp_path: Path) -> None:
     loud = np.linspace(-2.0, 2.0, 801)
     soundfile.write(tmp_path / "loud.wav", loud, 48_000, subtype="FLOAT")
     export_clip(tmp_path / "loud.wav", tmp_path / "out", "wav")
     played, _ = soundfile.read(next((tmp_path / "out" / "wav").glob("*.wav")))
-    np.testing.assert_allclose(played, np.clip(loud, -1.0, 1.0), atol=1e-4)
+    np.testing.assert_allclose(played, loud / 2.0, atol=1e-4)
 
 
 def test_a_full_disk_keeps_the_earlier_export(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -36,7 +36,7 @@ def levelled(
         felt.hear(block)
         held.write(np.ascontiguousarray(block).data)
     now_db = felt.level_db()
-    if now_db <= NOTHING_DB or is_noise(sound.meter.peak, felt.peak, is_chosen=is_chosen):
+    if now_db <= NOTHING_DB or is_noise(sound.meter.peak * sound.gain, felt.peak, is_chosen=is_chosen):
         return _scaled(held, sound.channels, 1.0), None
     asked_db = sensation_level_db(context.intensity)
     gain = min(10 ** ((asked_db - now_db) / 20), 10 ** (-TACTILE_HEADROOM_DB / 20) / felt.peak)

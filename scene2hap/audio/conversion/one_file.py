@@ -123,7 +123,7 @@ def convert(
             raise ConfigError(f"{source}: {cause}") from cause
         before = sound.meter
         after = Meter(sound.rate, sound.channels, n_frames=before.n_expected, n_columns=n_columns)
-        blocks = _converted(sound.blocks() if raw else sound.blocks_without_offset(), built, streams)
+        blocks = _converted(sound.blocks() if raw else sound.blocks_to_convert(), built, streams)
         level_db, asked_db = None, None if raw else sensation_level_db(context.intensity)
         with (
             opened_for_writing(output, beside, sound.rate, sound.channels, before.n_expected) as target,

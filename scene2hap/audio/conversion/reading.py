@@ -36,6 +36,8 @@ class SoundReader:
         self.channels = 1 if mono else int(file.channels)
         self.meter: Meter = Meter(self.rate, self.channels, n_frames=int(file.frames), n_columns=n_columns)
         self._source, self._file, self._mono = source, file, mono
+        self.gain: float = 1.0
+        """Factor by which `blocks_to_convert` scales the file [-]."""
         self._strongest: int | None = None
         if mono:
             mixdown = Mixdown()
@@ -69,15 +71,36 @@ class SoundReader:
         if n_read < stated and self._file.format != "MP3":  # the length of an MP3 is an estimate
             raise AudioError(f"{self._source} is cut short: {n_read} of {stated} frames. Copy it again.")
 
-    def blocks_without_offset(self) -> Iterator[Block]:
-        """Yield `blocks` through a high-pass that starts at the offset of the file's beginning."""
+    def blocks_to_convert(self) -> Iterator[Block]:
+        """Yield `blocks` within full scale, through a high-pass that starts at the offset of the file's beginning.
+
+        A file that peaks above full scale is scaled down as a whole, since a converter clips such samples. The level of
+        the result does not depend on the level of the file.
+        """
         share = 1.0 / (1.0 + 2.0 * math.pi * _SLOWEST_HZ / self.rate)
         section = np.array([[share, -share, 0.0, 1.0, -share, 0.0]])
         state = np.zeros((1, self.channels, 2))
         state[0, :, 0] = -share * self._first_offsets()
+        self.gain = 1.0 / max(1.0, self._peak())
+        section[0, :2] *= self.gain
+        state *= self.gain
         for block in self.blocks():
             rows = np.ascontiguousarray(block.T, dtype=np.float64)
             yield through_sections(section, rows, state).T.astype(np.float32)
+
+    def _peak(self) -> float:
+        """Return the peak of a file that can exceed full scale [-]; 0 for PCM, and for samples that are refused later.
+
+        This reads the file once more; decoding takes far less time than the conversion.
+        """
+        if self._file.subtype.startswith("PCM_"):
+            return 0.0
+        peak = 0.0
+        while len(block := self._file.read(BLOCK_FRAMES, dtype="float32", always_2d=True)):
+            with np.errstate(over="ignore"):
+                peak = max(peak, float(np.abs(self._mixed(block)).max()))
+        self._file.seek(0)
+        return peak if peak <= MAX_SAMPLE else 0.0
 
     def _first_offsets(self) -> NDArray[np.float64]:
         """Return the offset of each channel at the beginning of the file."""

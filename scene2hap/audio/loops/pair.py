@@ -11,7 +11,7 @@ from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.haptic_loop import HapticLoop
-from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB, is_noise
+from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB, is_noise, most_felt_hz
 from scene2hap.audio.loops.seam import apply_seam
 from scene2hap.audio.loops.seam_search import (
     CROSSFADE_S,
@@ -106,7 +106,7 @@ def loop_pair(
         replace(cut, samples=_with_peak(audible, 10 ** (AUDIBLE_PEAK_DBFS / 20))),
         replace(cut, samples=felt),
         analysis.dominant_frequency_hz(audible, rate, range_hz=AUDIBLE_RANGE_HZ),
-        analysis.dominant_frequency_hz(felt, rate),
+        most_felt_hz(felt, rate, context.actuator),
     )
 
 

@@ -1,6 +1,7 @@
 """`rebake` rebuilds loops whose inputs have changed, and reports them."""
 
 import json
+import warnings
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -18,6 +19,7 @@ from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.tactile.adaptive import Adaptive
 from scene2hap.audio.tactile.stages import StageStream
 from scene2hap.baking.fingerprint import made_by, request_digests
+from scene2hap.bundle import BundleWarning
 from scene2hap.errors import BundleError, ConfigError
 from scenes import box, scene, tone_loop
 
@@ -239,6 +241,16 @@ def test_audible_loop_replaces_a_missing_source_clip(bundle: HapticBundle) -> No
 
 def test_sources_stay_clear_of_a_locked_loop(bundle: HapticBundle) -> None:
     assert remade(bundle.override("microwave_oven", locked=True))[1] == {}
+
+
+def test_locked_loops_of_another_actuator_are_named(bundle: HapticBundle) -> None:
+    """In an earlier version a bundle for another actuator kept them without a word, at a wrong level."""
+    locked = bundle.override("desk_fan", locked=True)
+    with pytest.warns(BundleWarning, match="another actuator than 'lra': 'desk_fan'. They may be felt too"):
+        again = rebake(locked, {"actuator": "lra"})
+    assert again.loops["desk_fan"] == bundle.loops["desk_fan"]
+    with warnings.catch_warnings(action="error"):
+        rebake(again.override("desk_fan", gain_db=-3.0))  # nothing is made, so nothing is said again
 
 
 def test_only_a_loop_without_a_target_depends_on_its_neighbours() -> None:

@@ -168,6 +168,29 @@ def test_missing_and_out_of_range_values_follow_the_phone(tmp_path: Path) -> Non
         clip_of(tmp_path, item("Transient", 0.1, Intensity=1.0), {"Event": {"Time": 0, "EventType": "AudioCustom"}})
 
 
+def test_a_value_holds_until_the_next_parameter_or_curve(tmp_path: Path) -> None:
+    """In an earlier version it moved in a line towards the next one, which nobody drew."""
+
+    def parameter(time_s: float, value: float) -> dict[str, Any]:
+        return {"Parameter": {"ParameterID": "HapticIntensityControl", "Time": time_s, "ParameterValue": value}}
+
+    event = item("Continuous", 0.0, 2.0, Intensity=1.0)
+    later = curve("Intensity", 1.5, (0.0, 0.8), (0.5, 0.6))
+    clip = clip_of(tmp_path, event, later, parameter(1.0, 1.0), parameter(0.5, 0.5))
+    roots = np.sqrt(clip.amplitude.at([0.25, 0.75, 0.99, 1.25, 1.49, 1.75]))
+    np.testing.assert_allclose(roots, [1.0, 0.5, 0.5, 1.0, 1.0, 0.7], atol=1e-9)
+
+
+def test_envelope_of_an_event_is_reported_as_not_played(tmp_path: Path) -> None:
+    event = item("Continuous", 0.0, 1.0, Intensity=1.0)
+    event["Event"]["EventParameters"] += [
+        {"ParameterID": "Sustained", "ParameterValue": 1.0},
+        {"ParameterID": "AttackTime", "ParameterValue": 0.3},
+    ]
+    with pytest.warns(ClipWarning, match=r": the parameter 'AttackTime' of an event in it is not played"):
+        clip_of(tmp_path, event)
+
+
 def test_transients_alone_are_a_clip(tmp_path: Path) -> None:
     clip = clip_of(tmp_path, item("Transient", 0.5, Intensity=0.5, Sharpness=0.9))
     assert clip.transients == (Transient(0.5, 0.25, 0.9),)

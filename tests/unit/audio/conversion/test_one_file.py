@@ -136,6 +136,18 @@ def test_conversion_counts_samples_clipped_inside_the_converter(tmp_path: Path) 
     assert made.peak_out == 1.0
 
 
+@pytest.mark.parametrize("kind", ["auto", "svf_bandpass"])
+def test_float_file_beyond_full_scale_converts_as_the_same_file_within_it(tmp_path: Path, kind: str) -> None:
+    """In an earlier version the converter clipped it: the third harmonic of a hum rose from -108 to -24 dB."""
+    within = write(tmp_path / "within.wav", sound(), subtype="FLOAT")
+    beyond = write(tmp_path / "beyond.wav", 8.0 * sound(), subtype="FLOAT")
+    audio.convert(within, tmp_path / "a.wav", converter=kind)
+    made = audio.convert(beyond, tmp_path / "b.wav", converter=kind)
+    assert made.n_clipped == 0
+    assert made.peak_in > 3.0
+    np.testing.assert_allclose(soundfile.read(tmp_path / "b.wav")[0], soundfile.read(tmp_path / "a.wav")[0], atol=1e-5)
+
+
 def test_conversion_clips_at_full_scale_and_counts_clipped_samples(tmp_path: Path) -> None:
     source = write(tmp_path / "a.wav", np.array([0.1, 0.6, -0.7, 0.4]), subtype="PCM_24")
     made = audio.convert(source, tmp_path / "b.wav", converter=Held(gain=2.0), raw=True)
