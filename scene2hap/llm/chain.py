@@ -18,7 +18,7 @@ from typing import Any, TypeVar, cast
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, Scene2HapError
+from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, RequestRejected, Scene2HapError
 from scene2hap.haptics import (
     LEAST_MASS_KG,
     LONGEST_PASSAGE_S,
@@ -404,7 +404,7 @@ async def _scene_category(scene: SceneSnapshot, questions: Questions) -> str:
     facts = {"scene_name": clean(scene.name), "object_names": [clean(item.name) for item in scene.objects]}
     try:
         answer, _ = await questions.ask("scene_analyzer", "", facts, SceneAnswer, scene.images or ())
-    except BadAnswer as problem:
+    except (BadAnswer, RequestRejected) as problem:
         questions.report.errors[""] = str(problem)
         return "undefined"
     return answer.scene_category
