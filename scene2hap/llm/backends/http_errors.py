@@ -16,7 +16,7 @@ from scene2hap.llm.backends.retry_after import LONGEST_WAIT_S, reset_wait_s, sta
 
 _RETRYABLE = frozenset({408, 409, 429})
 _ABOUT_THE_REQUEST = frozenset({400, 413, 422})
-"""Statuses for a request that the server read and rejected. Another request may pass: it has other pictures or words."""
+"""Statuses of a rejected request. Another request may pass, since it has other pictures or words."""
 _OUT_OF_MONEY = frozenset(
     {
         "insufficient_quota",
@@ -83,6 +83,8 @@ def failure(reply: WebReply, *, now_s: float | None = None) -> BackendUnavailabl
     elif wait_s is not None and wait_s > LONGEST_WAIT_S:
         retryable = False
         parts.append(f"It asks to wait {wait_s:.0f} s; try again then.")
+    elif "response_format" in f"{error.param} {error.message}":
+        parts.append("For a service without strict output, use kind 'local' with its base_url, model and api_key.")
     elif reply.status in _HINTS:
         parts.append(_HINTS[reply.status])
     is_about_request = not retryable and reply.status in _ABOUT_THE_REQUEST
