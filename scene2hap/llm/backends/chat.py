@@ -9,11 +9,11 @@ from typing import Any
 
 from scene2hap.common.web import WebReply
 from scene2hap.errors import AnswerRefused, BackendUnavailable, BadAnswer
+from scene2hap.llm.answers.finish_reasons import is_cut, is_filtered, is_whole
+from scene2hap.llm.answers.refusals import FILTERED_REQUEST, refusal_in
 from scene2hap.llm.backends.http_errors import failure, server_error
-from scene2hap.llm.finish_reasons import is_cut, is_filtered, is_whole
+from scene2hap.llm.prompts.quoting import shown
 from scene2hap.llm.protocol import LLMReply, LLMRequest
-from scene2hap.llm.quoting import shown
-from scene2hap.llm.refusals import FILTERED_REQUEST, refusal_in
 
 _AFTER_REFUSAL = "It gets no second try; rename or hide what it objects to, send no pictures, or choose another model."
 

@@ -16,12 +16,12 @@ from scene2hap.common.secret import Secret
 from scene2hap.common.warning import warn_of
 from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable, ConfigError
+from scene2hap.llm.answers.schema import strict_schema
 from scene2hap.llm.backends import chat
 from scene2hap.llm.backends.http_client import Endpoint
 from scene2hap.llm.backends.http_errors import ServerError, failure, server_error
 from scene2hap.llm.backends.image_tokens import ImagesAsText
 from scene2hap.llm.protocol import LLMReply, LLMRequest
-from scene2hap.llm.schema import strict_schema
 
 if TYPE_CHECKING:
     from scene2hap.common.web import Transport

@@ -14,7 +14,7 @@ from scene2hap.errors import BackendUnavailable, BadAnswer, Scene2HapError
 from scene2hap.llm.backends import chat
 from scene2hap.llm.backends.openai import OpenAIBackend
 from scene2hap.llm.batch.folder import BatchFolder, Outcome, RequestWriter, Stage, keys_in
-from scene2hap.llm.dry_run import estimated_cost_usd
+from scene2hap.llm.chain.dry_run import estimated_cost_usd
 from scene2hap.llm.protocol import AnswerPending, LLMReply, LLMRequest
 from scene2hap.llm.request_key import canonical
 from scene2hap.llm.wrappers.prices import PriceList

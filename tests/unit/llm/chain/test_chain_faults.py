@@ -22,7 +22,7 @@ from scene2hap import (
 from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, ReplayMiss, RequestRejected
 from scene2hap.llm.backends.chat import UnusableAnswer
 from scene2hap.llm.chain import infer_scene
-from scene2hap.llm.questions import MOST_UNANSWERED
+from scene2hap.llm.chain.questions import MOST_UNANSWERED
 from scenes import box, scene
 from scripted_backend import SCENE, Scripted, run
 

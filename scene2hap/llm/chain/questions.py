@@ -16,11 +16,11 @@ from scene2hap.common.counted import counted
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, RequestRejected
 from scene2hap.llm.answers import Answer, AnswerType, read_answer
+from scene2hap.llm.answers.json_text import answer_object
 from scene2hap.llm.backends import chat
-from scene2hap.llm.json_text import answer_object
+from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import AnswerPending, Component, LLMBackend, LLMReply, LLMRequest
-from scene2hap.llm.report import InferenceReport
 
 MOST_UNANSWERED = 8
 """Questions of one component in a row without an answer that stop a run (assumed: all that run at once by default)."""
