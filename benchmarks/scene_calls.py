@@ -3,9 +3,9 @@
 python benchmarks/scene_calls.py [--scenes 200] [--seed 0] [--model gpt-5]
 
 Scenes are the variations of `benchmarks/bake_many.py`. The lexicon answers instead of a model, and every request is
-counted, with its estimated tokens (`scene2hap.llm.dry_run`). Pictures are small, since only their equality matters
-here. The plan for more scenes is extrapolated from the same run, by requests and tokens per scene and by the growth of
-the number of distinct requests.
+counted, with its estimated tokens (`scene2hap.llm.chain.dry_run`). Pictures are small, since only their equality
+matters here. The plan for more scenes is extrapolated from the same run, by requests and tokens per scene and by the
+growth of the number of distinct requests.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from bake_many import write_variations
 
 from scene2hap import capture_images, load_scene
 from scene2hap.llm.chain import infer_scene
-from scene2hap.llm.dry_run import estimated_cost_usd
+from scene2hap.llm.chain.dry_run import estimated_cost_usd
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.wrappers import CacheBackend, price_list

@@ -29,6 +29,7 @@ that ``except ValueError`` works for callers who do not know the tree::
     │   └── UnknownSession (LookupError)          a session that the bridge does not have, or no longer
     ├── BackendError                              a language-model or sound service
     │   ├── BackendUnavailable (ConnectionError)  unreachable, or refuses; states if a retry can help
+    │   │   └── RequestRejected                   refuses this one request: its pictures, its length or a parameter
     │   ├── BadAnswer (ValueError)                the answer fails its schema; carries the raw text
     │   │   └── AnswerRefused                     the model, or a filter before it, refuses to answer
     │   ├── BudgetExceeded                        the next call would exceed a limit
@@ -160,6 +161,10 @@ class BackendUnavailable(BackendError, ConnectionError):
         super().__init__(message)
         self.retryable = retryable
         self.retry_after_s = retry_after_s
+
+
+class RequestRejected(BackendUnavailable):
+    """The service rejected this request: its pictures, its length or a parameter. Others may be answered."""
 
 
 class BadAnswer(BackendError, ValueError):

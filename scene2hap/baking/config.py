@@ -17,7 +17,7 @@ from scene2hap.audio.spreading import SpreadLimits
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.common.settings import cache_folder
 from scene2hap.haptics import ActuatorProfile
-from scene2hap.llm.config import InferenceConfig
+from scene2hap.llm.chain.config import InferenceConfig
 from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.wrappers import build_backend
 

@@ -14,8 +14,8 @@ from scene2hap.common.warning import warn_of
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
 from scene2hap.llm.chain import Inference, infer_scene
+from scene2hap.llm.chain.questions import Slots
 from scene2hap.llm.protocol import LLMBackend
-from scene2hap.llm.questions import Slots
 from scene2hap.llm.wrappers import reports
 from scene2hap.scene.snapshot import SceneSnapshot
 

@@ -35,10 +35,10 @@ from scene2hap.bundle import HapticBundle, MadeWith, Override
 from scene2hap.bundle.arguments import given_bundle
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
+from scene2hap.common.run_coroutine import run_waiting
 from scene2hap.errors import ConfigError, SceneError
 from scene2hap.haptics import ObjectHaptics
-from scene2hap.llm.report import InferenceReport
-from scene2hap.llm.run_coroutine import run_waiting
+from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.scene import limits
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.objects import SceneObject, UpAxis

@@ -24,9 +24,9 @@ from scene2hap.cli.edit import kept_before, wishes
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
 from scene2hap.errors import BundleError, ConfigError
-from scene2hap.llm.dry_run import dry_run
+from scene2hap.llm.chain.dry_run import dry_run
+from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.lexicon import LexiconBackend
-from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.wrappers import identity, innermost, is_remote
 from scene2hap.llm.wrappers.prices import price_list
 from scene2hap.scene.capture import capture_images

@@ -47,7 +47,7 @@ from scene2hap.cli.tables import show_report
 from scene2hap.common.counted import counted
 from scene2hap.common.file_stamp import file_stamp
 from scene2hap.errors import BundleChanged, BundleError, Scene2HapError
-from scene2hap.llm.report import InferenceReport
+from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.wrappers import is_remote
 
 HELP = "correct one object of a bundle"

@@ -12,7 +12,7 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
 from scene2hap.common.counted import counted
 from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
-from scene2hap.llm.report import InferenceReport
+from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.wrappers.prices import Given, price_list
 from scene2hap.scene.snapshot import SceneSnapshot
 

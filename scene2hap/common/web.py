@@ -171,14 +171,15 @@ async def exchange(
     async def check(request: httpx.Request) -> None:
         if safe_only and not is_safe(str(request.url)):
             raise httpx.UnsupportedProtocol(f"it leads to {request.url.scheme}://{request.url.host}, which is not safe")
-        if transport is None and not getproxies():  # a proxy resolves names itself
+        if transport is None and (not getproxies() or request.url.host in LOOPBACK):  # a proxy resolves names itself
             await _look_up(request.url.host)
 
     # No compression is requested. If a reply is compressed anyway, it is unpacked within the limit.
     headers = {"accept-encoding": "identity"}
     if body is not None:
         headers["content-type"] = content_type
-    client = _client(transport, limits.timeout_s, check)
+    is_here = is_safe(url) and urlsplit(url).hostname in LOOPBACK
+    client = _client(transport, limits.timeout_s, check, is_here)
     try:
         with scrubbed(scrub):
             async with (
@@ -210,7 +211,7 @@ async def exchange(
         proxy = " It goes through the proxy of HTTP_PROXY, HTTPS_PROXY or ALL_PROXY, unless NO_PROXY names the host."
         raise BackendUnavailable(
             f"{url} cannot be reached: {problem}. Check the network, the server and the address."
-            f"{proxy if transport is None and getproxies().keys() & {'http', 'https', 'all'} else ''}",
+            f"{proxy if transport is None and not is_here and getproxies().keys() & {'http', 'https', 'all'} else ''}",
             retryable=not never,
         ) from _without_frames(cause, scrub)
     return WebReply(url, response.status_code, content, dict(response.headers))
@@ -271,15 +272,22 @@ def _require_at_most(n_bytes: int, url: str, max_bytes: int) -> None:
         )
 
 
-def _client(transport: Transport | None, timeout_s: float, check: Callable[..., object]) -> httpx.AsyncClient:
-    """Make a client for one request. A shared pool would outlive the event loop of asyncio.run and leak its sockets."""
+def _client(
+    transport: Transport | None, timeout_s: float, check: Callable[..., object], is_here: bool
+) -> httpx.AsyncClient:
+    """Make a client for one request, which goes to this machine if `is_here`.
+
+    A shared pool would outlive the event loop of asyncio.run and leak its sockets.
+    """
     import httpx
 
     try:
-        for proxy in getproxies().values():
+        for proxy in () if is_here else getproxies().values():
             _ = urlsplit(proxy).port  # raises for a port that is no number up to 65535
         return httpx.AsyncClient(
             transport=transport,
+            # A proxy on another machine cannot reach this one's own servers, and should not see what they are asked.
+            trust_env=not is_here,
             timeout=httpx.Timeout(timeout_s, connect=min(CONNECT_TIMEOUT_S, timeout_s)),
             verify=_ssl_context(),
             max_redirects=MAX_REDIRECTS,

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, Protocol, get_args, runtime_checkable
 
 from scene2hap.common.calls import clear_construction
+from scene2hap.errors import BackendUnavailable
 
 Component = Literal["scene_analyzer", "object_analyzer", "material_estimator", "vibration_describer"]
 """The four chained components of the paper, section "LLM Workflow and Components"."""
@@ -53,6 +54,13 @@ class LLMReply:
     key: str = ""
     is_kept: bool = False
     service_tier: str = ""
+
+
+class AnswerPending(BackendUnavailable):
+    """The answer comes later: the question is in a batch, or will be in the next one."""
+
+    def __init__(self, message: str) -> None:
+        super().__init__(message, retryable=True)
 
 
 @runtime_checkable

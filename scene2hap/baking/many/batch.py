@@ -26,12 +26,12 @@ from scene2hap.baking.many.run import Progress, Run, scene_paths
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes, clear_call
 from scene2hap.common.counted import counted
+from scene2hap.common.run_coroutine import run_waiting
 from scene2hap.common.settings import cache_folder
 from scene2hap.errors import BudgetExceeded, ConfigError, Scene2HapError
 from scene2hap.llm.backends.openai import OpenAIBackend
 from scene2hap.llm.batch import AnswerPending, BatchBackend, BatchFolder, BatchRow, BatchService, BatchStatus
 from scene2hap.llm.protocol import LLMReply, LLMRequest
-from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.stack import Wrapper
 from scene2hap.llm.wrappers import CacheBackend, RepairBackend, identity, innermost
 from scene2hap.llm.wrappers.prices import price_list

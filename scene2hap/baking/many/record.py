@@ -16,7 +16,7 @@ from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import converter_settings, described
 from scene2hap.common.text_files import read_small_text, write_whole
 from scene2hap.errors import ConfigError, SceneError, unwritable
-from scene2hap.llm.config import InferenceConfig
+from scene2hap.llm.chain.config import InferenceConfig
 from scene2hap.llm.wrappers import identity
 from scene2hap.scene.files import is_habitat, read_bytes
 from scene2hap.scene.formats.habitat import referenced_files

@@ -38,13 +38,13 @@ from scene2hap.bundle import HapticBundle, read_overrides
 from scene2hap.bundle.sounds import file_stem
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
+from scene2hap.common.run_coroutine import run_waiting
 from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import ConfigError, unwritable
 from scene2hap.llm.chain import Inference
+from scene2hap.llm.chain.questions import Slots
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.protocol import LLMBackend
-from scene2hap.llm.questions import Slots
-from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.wrappers import is_remote, reports
 from scene2hap.llm.wrappers.prices import price_list
 from scene2hap.scene.capture import capture_images

@@ -22,7 +22,7 @@ from scene2hap.baking.scene import bake, bake_inferred
 from scene2hap.baking.sound import N_THREADS
 from scene2hap.bundle import HapticBundle, read_overrides
 from scene2hap.haptics import is_unknown
-from scene2hap.llm.report import InferenceReport
+from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.scene.capture import capture_images, render_all
 from scene2hap.scene.load import load_scene
 

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from scene2hap.common.web import WebReply
 from scene2hap.errors import AnswerRefused, BackendUnavailable, BadAnswer
+from scene2hap.llm.answers.finish_reasons import is_cut, is_filtered, is_whole
+from scene2hap.llm.answers.refusals import FILTERED_REQUEST, refusal_in
 from scene2hap.llm.backends.http_errors import failure, server_error
-from scene2hap.llm.finish_reasons import is_cut, is_filtered, is_whole
+from scene2hap.llm.prompts.quoting import shown
 from scene2hap.llm.protocol import LLMReply, LLMRequest
-from scene2hap.llm.quoting import shown
-from scene2hap.llm.refusals import FILTERED_REQUEST, refusal_in
 
 _AFTER_REFUSAL = "It gets no second try; rename or hide what it objects to, send no pictures, or choose another model."
 
@@ -199,8 +199,14 @@ def json_object(reply: WebReply) -> dict[str, Any]:
         hint = "It streams, which was not requested: switch that off at the server." if is_stream else "Check base_url."
         raise BackendUnavailable(f"{reply.url} answered {reply.status} without a JSON object. {hint}")
     if body.get("error"):
-        raise BackendUnavailable(f"{reply.url} answered {reply.status} with an error: {server_error(reply).message}.")
+        error = server_error(reply)
+        if error.code in _ERROR_STATUSES:  # of a gateway, which had sent its own status before its provider failed
+            return json_object(replace(reply, status=int(error.code)))
+        raise BackendUnavailable(f"{reply.url} answered {reply.status} with an error: {error.message}.")
     return body
+
+
+_ERROR_STATUSES = frozenset(map(str, range(400, 600)))
 
 
 def text_of(value: object) -> str:
@@ -209,10 +215,16 @@ def text_of(value: object) -> str:
 
 
 def _usage(usage: object) -> dict[str, int]:
-    """Return the token counts of a chat completion, including prompt tokens served from the service's prompt cache."""
+    """Return the token counts of a chat completion, including prompt tokens served from the service's prompt cache.
+
+    Some services bill thoughts that only `total_tokens` counts.
+    """
     details = usage.get("prompt_tokens_details") if isinstance(usage, dict) else None
     cached = counts(details).get("cached_tokens", 0)
-    return {**counts(usage), **({"cached_tokens": cached} if cached else {})}
+    used = counts(usage)
+    if {"prompt_tokens", "completion_tokens", "total_tokens"} <= used.keys():
+        used["completion_tokens"] = max(used["completion_tokens"], used["total_tokens"] - used["prompt_tokens"])
+    return {**used, **({"cached_tokens": cached} if cached else {})}
 
 
 _MOST_TOKENS = 2**53

@@ -12,9 +12,9 @@ from typing import Any, Literal, Protocol
 
 from scene2hap.common.web import WebReply
 from scene2hap.errors import BadAnswer
+from scene2hap.llm.answers.schema import local_schema
 from scene2hap.llm.backends import chat
 from scene2hap.llm.protocol import LLMRequest
-from scene2hap.llm.schema import local_schema
 
 Rung = Literal["json_schema", "json_object", "prompt"]
 LADDER: tuple[Rung, ...] = ("json_schema", "json_object", "prompt")

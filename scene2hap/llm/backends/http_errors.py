@@ -11,10 +11,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from scene2hap.common.web import WebReply
-from scene2hap.errors import BackendUnavailable
+from scene2hap.errors import BackendUnavailable, RequestRejected
 from scene2hap.llm.backends.retry_after import LONGEST_WAIT_S, reset_wait_s, stated_wait_s
 
 _RETRYABLE = frozenset({408, 409, 429})
+_ABOUT_THE_REQUEST = frozenset({400, 413, 422})
+"""Statuses of a rejected request. Another request may pass, since it has other pictures or words."""
 _OUT_OF_MONEY = frozenset(
     {
         "insufficient_quota",
@@ -81,9 +83,13 @@ def failure(reply: WebReply, *, now_s: float | None = None) -> BackendUnavailabl
     elif wait_s is not None and wait_s > LONGEST_WAIT_S:
         retryable = False
         parts.append(f"It asks to wait {wait_s:.0f} s; try again then.")
+    elif "response_format" in f"{error.param} {error.message}":
+        parts.append("For a service without strict output, use kind 'local' with its base_url, model and api_key.")
     elif reply.status in _HINTS:
         parts.append(_HINTS[reply.status])
-    return BackendUnavailable(" ".join(parts), retryable=retryable, retry_after_s=wait_s)
+    is_about_request = not retryable and reply.status in _ABOUT_THE_REQUEST
+    shape = RequestRejected if is_about_request else BackendUnavailable
+    return shape(" ".join(parts), retryable=retryable, retry_after_s=wait_s)
 
 
 def _retryable(reply: WebReply) -> bool:

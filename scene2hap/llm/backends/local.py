@@ -16,13 +16,13 @@ from scene2hap.common.secret import Secret
 from scene2hap.common.warning import warn_of
 from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable, ConfigError
+from scene2hap.llm.answers.json_text import first_object
+from scene2hap.llm.answers.schema import fields_in_words
 from scene2hap.llm.backends import chat, server_models
 from scene2hap.llm.backends.dialects import LADDER, ChatCompletions, Decoding, Dialect, OllamaChat, Rung
 from scene2hap.llm.backends.http_client import Endpoint
 from scene2hap.llm.backends.image_tokens import LostImages
-from scene2hap.llm.json_text import first_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
-from scene2hap.llm.schema import fields_in_words
 
 if TYPE_CHECKING:
     from scene2hap.common.web import Transport

@@ -6,6 +6,7 @@ Source: the OpenAPI description in openai/openai-openapi; OpenAI's guides "Struc
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -15,12 +16,12 @@ from scene2hap.common.secret import Secret
 from scene2hap.common.warning import warn_of
 from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable, ConfigError
+from scene2hap.llm.answers.schema import strict_schema
 from scene2hap.llm.backends import chat
 from scene2hap.llm.backends.http_client import Endpoint
-from scene2hap.llm.backends.http_errors import failure, server_error
+from scene2hap.llm.backends.http_errors import ServerError, failure, server_error
 from scene2hap.llm.backends.image_tokens import ImagesAsText
 from scene2hap.llm.protocol import LLMReply, LLMRequest
-from scene2hap.llm.schema import strict_schema
 
 if TYPE_CHECKING:
     from scene2hap.common.web import Transport
@@ -37,6 +38,8 @@ _GIVES_WAY = {
 }
 """Parameters that some models reject, and the name that these models accept instead; None for no such name. Models that
 always reason reject temperature and top_p. Some models are not offered in the flex tier."""
+
+_QUOTED = re.compile(r"['\"`](\w+)['\"`]")
 
 TIMEOUT_S, FLEX_TIMEOUT_S = 120.0, 900.0
 """Longest wait for one answer [s]. The value for the flex tier is from OpenAI's guide "Flex processing"."""
@@ -190,7 +193,7 @@ class OpenAIBackend:
 
         A parameter that is not in `sent` was dropped before, so the result is False.
         """
-        blamed = server_error(reply).param if reply.status == 400 else ""
+        blamed = _blamed(server_error(reply)) if reply.status == 400 else ""
         if blamed not in _GIVES_WAY or (sent is not None and blamed not in sent):
             return False
         self._give_way(blamed, failure(reply))
@@ -210,3 +213,14 @@ class OpenAIBackend:
         else:
             what = f"it is sent as {instead!r}" if instead else "it is no longer sent, so answers may vary more"
         warn_of(f"{self.model} does not take {parameter!r}; {what}. {reason}", chat.BackendWarning)
+
+
+def _blamed(error: ServerError) -> str:
+    """Return the parameter that an error rejects. Gateways leave `param` empty, and quote the parameter's name.
+
+    The first name counts: "'max_tokens' is not supported, use 'max_completion_tokens'".
+    """
+    if error.param:
+        return error.param
+    quoted = _QUOTED.search(error.message)
+    return quoted[1] if quoted is not None else ""

@@ -6,8 +6,9 @@
 Source: OpenAI, guide "Batch API" and the reference of `/v1/files` and `/v1/batches`.
 """
 
-from scene2hap.llm.batch.backend import AnswerPending, BatchBackend
+from scene2hap.llm.batch.backend import BatchBackend
 from scene2hap.llm.batch.folder import BatchFolder, BatchRow
 from scene2hap.llm.batch.service import BatchService, BatchStatus
+from scene2hap.llm.protocol import AnswerPending
 
 __all__ = ["AnswerPending", "BatchBackend", "BatchFolder", "BatchRow", "BatchService", "BatchStatus"]

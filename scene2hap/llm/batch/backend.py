@@ -14,8 +14,8 @@ from scene2hap.errors import BackendUnavailable, BadAnswer, Scene2HapError
 from scene2hap.llm.backends import chat
 from scene2hap.llm.backends.openai import OpenAIBackend
 from scene2hap.llm.batch.folder import BatchFolder, Outcome, RequestWriter, Stage, keys_in
-from scene2hap.llm.dry_run import estimated_cost_usd
-from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.chain.dry_run import estimated_cost_usd
+from scene2hap.llm.protocol import AnswerPending, LLMReply, LLMRequest
 from scene2hap.llm.request_key import canonical
 from scene2hap.llm.wrappers.prices import PriceList
 
@@ -24,13 +24,6 @@ TIER = "batch"
 _TRIES = 3
 """Most attempts for a request that fails on the server. A request that expired or was cancelled is always repeated."""
 _NO_FAULT = frozenset({"batch_expired", "batch_cancelled"})
-
-
-class AnswerPending(BackendUnavailable):
-    """The question is in a batch, or will be in the next one."""
-
-    def __init__(self, message: str) -> None:
-        super().__init__(message, retryable=True)
 
 
 class BatchBackend:

@@ -102,7 +102,7 @@ class BatchService:
             except BackendUnavailable as problem:
                 if not problem.retryable:
                     raise
-                await self._sleep(problem.retry_after_s if problem.retry_after_s is not None else wait_s)
+                await self._sleep(problem.retry_after_s or wait_s)
         return _successful(await ask())
 
 

@@ -1,6 +1,6 @@
 """The prompt templates, one text file per component, under one version.
 
-A template names facts as {placeholders}, which are filled in as JSON (`llm.quoting`); doubled braces give braces.
+A template names facts as {placeholders}, which are filled in as JSON (`quoting`); doubled braces give braces.
 Users can replace any of the files by one of the same name in their own folder. Raise `VERSION` whenever a built-in file
 changes, since the version is part of the provenance of answers.
 
@@ -23,8 +23,8 @@ from typing import Any
 
 from scene2hap.common.text_files import read_small_text
 from scene2hap.errors import ConfigError, reason_of
+from scene2hap.llm.prompts.quoting import IS_DATA, as_data
 from scene2hap.llm.protocol import COMPONENTS, Component
-from scene2hap.llm.quoting import IS_DATA, as_data
 
 VERSION = "6"
 

@@ -21,7 +21,7 @@ from pydantic import BaseModel, ConfigDict
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.text_files import read_small, write_whole
 from scene2hap.errors import ConfigError, reason_of, unwritable
-from scene2hap.llm.finish_reasons import is_whole
+from scene2hap.llm.answers.finish_reasons import is_whole
 from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
 from scene2hap.llm.request_key import request_key
 from scene2hap.llm.stack import Spec, Wrapper

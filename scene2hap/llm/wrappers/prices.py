@@ -15,7 +15,8 @@ from scene2hap.errors import ConfigError
 
 _SNAPSHOT = re.compile(r"-\d{4}-\d{2}-\d{2}$")
 """The date in the name of a model version: gpt-4o-2024-08-06."""
-
+_MAKER = "openai/"
+"""Gateways put it before the names of the models in the built-in list."""
 
 Given = tuple[float, float] | tuple[float, float, float]
 """A price in settings: input, output, and optionally cached input."""
@@ -58,8 +59,9 @@ class PriceList:
     tiers: Mapping[str, float]
 
     def of(self, model: str) -> Price | None:
-        """Return the price of a model; for a dated version also the price of its base name. None if unknown."""
-        return self.prices.get(model) or self.prices.get(_SNAPSHOT.sub("", model))
+        """Return the price of a model; None if unknown. Without its own, that of the name without maker or date."""
+        name = model.removeprefix(_MAKER)
+        return self.prices.get(model) or self.prices.get(name) or self.prices.get(_SNAPSHOT.sub("", name))
 
     def cost_usd(self, model: str, usage: Mapping[str, int], service_tier: str = "") -> float | None:
         """Return the cost of an answer [US dollars]; None if the price of its model or tier is unknown."""

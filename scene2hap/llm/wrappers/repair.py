@@ -8,8 +8,8 @@ from dataclasses import replace
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import BadAnswer, ConfigError
+from scene2hap.llm.answers.json_text import answer_object
 from scene2hap.llm.backends.chat import UnusableAnswer, about as describe, require_answer, unusable
-from scene2hap.llm.json_text import answer_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.stack import Spec, Wrapper
 from scene2hap.llm.validation import Fault, find_fault

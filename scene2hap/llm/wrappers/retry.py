@@ -59,7 +59,7 @@ class RetryBackend(Wrapper):
             except BackendUnavailable as problem:
                 if not problem.retryable:
                     raise
-                if problem.retry_after_s is not None and self._told_retries is not None:
+                if problem.retry_after_s and self._told_retries is not None:
                     n_stated += 1
                 else:
                     n_unstated += 1
@@ -81,6 +81,6 @@ class RetryBackend(Wrapper):
         }
 
     def _wait_s(self, attempt: int, problem: BackendUnavailable) -> float:
-        if problem.retry_after_s is not None:
+        if problem.retry_after_s:  # a stated wait of 0 s states nothing: calls would follow one another at once
             return problem.retry_after_s
         return min(FIRST_WAIT_S * 2.0**attempt, LONGEST_WAIT_S) * self._rng.uniform(LEAST_SHARE, 1.0)

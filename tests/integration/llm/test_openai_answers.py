@@ -105,3 +105,17 @@ def test_success_status_without_json_is_not_a_model_server(body: bytes) -> None:
 
 def test_an_error_under_status_200_is_an_error() -> None:
     assert "provider is away" in str(failed(refused(200, {"message": "provider is away"})))
+
+
+@pytest.mark.parametrize(("code", "retryable"), [(502, True), (429, True), ("503", True), (401, False), (1, False)])
+def test_an_error_under_status_200_counts_as_the_status_that_it_names(code: int | str, retryable: bool) -> None:
+    """A gateway sends its status before the provider of the model fails."""
+    body = {"error": {"message": "Provider returned error", "code": code}}
+    assert failed(Scripted(body)).retryable is retryable
+
+
+def test_thoughts_that_only_the_total_counts_are_billed() -> None:
+    reply = said()
+    reply.body["usage"] = {"prompt_tokens": 100, "completion_tokens": 20, "total_tokens": 620}
+    with openai_serving(reply) as server:
+        assert ask(openai(server)).usage["completion_tokens"] == 520

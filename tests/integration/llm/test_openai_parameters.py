@@ -29,6 +29,21 @@ def test_reasoning_models_reject_temperature(code: str | None) -> None:
     assert ["temperature" in body for body in server.bodies] == [True, False, False]
 
 
+@pytest.mark.parametrize("quote", ["'", '"', "`"])
+def test_a_gateway_names_the_parameter_in_its_message_alone(quote: str) -> None:
+    names = [f"{quote}{name}{quote}" for name in ("max_tokens", "max_completion_tokens")]
+    error = {"message": f"Unsupported parameter: {names[0]}. Use {names[1]} instead.", "param": None, "code": None}
+    with openai_serving(refused(400, error), said()) as server, pytest.warns(BackendWarning, match="'max_tokens'"):
+        ask(openai(server, max_tokens=300))
+    assert server.bodies[1]["max_completion_tokens"] == 300
+
+
+def test_a_service_without_strict_output_is_sent_to_the_kind_that_needs_none() -> None:
+    error = {"message": "This response_format type is unavailable now", "type": "invalid_request_error"}
+    with openai_serving(refused(400, error)) as server, pytest.raises(BackendUnavailable, match="use kind 'local'"):
+        ask(openai(server))
+
+
 def test_max_tokens_is_renamed_and_seed_dropped() -> None:
     script = (no_parameter("max_tokens", "unsupported_parameter"), no_parameter("seed"), said())
     with openai_serving(*script) as server:

@@ -11,7 +11,7 @@ from files_of import files_of
 from scene2hap import HapticBundle, bake
 from scene2hap.bundle.account import account_path, read_account, write_account
 from scene2hap.errors import BundleError, ConfigError
-from scene2hap.llm.report import InferenceReport
+from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.report import report_document
 from scripted_backend import SCENE, Scripted
 

@@ -16,7 +16,7 @@ from scene2hap import Box, DominantSurface, Hinge, Pose, SceneObject, SceneSnaps
 from scene2hap.common.warning import SceneWarning
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import SceneError
-from scene2hap.llm.sharing import copies
+from scene2hap.llm.chain.sharing import copies
 from scene2hap.scene.geometry import distances
 from scene2hap.scene.hinges import chains
 from scene2hap.scene.plausibility.units import UnitWarning

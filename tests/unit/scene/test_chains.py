@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from scene2hap import ContactGraph, Hinge, SceneSnapshot
-from scene2hap.llm.sharing import copies
+from scene2hap.llm.chain.sharing import copies
 from scene2hap.scene.hinges import Chain, chains, series
 from scripted_backend import box
 

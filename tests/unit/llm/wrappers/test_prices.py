@@ -58,3 +58,10 @@ def test_more_cached_input_than_input_costs_as_the_input() -> None:
 def test_cached_input_never_costs_more_than_fresh() -> None:
     for model, price in price_list().prices.items():
         assert (price.cached_input_per_million or 0.0) < price.input_per_million, model
+
+
+def test_a_gateway_puts_the_maker_before_the_name() -> None:
+    listed = price_list({"openai/gpt-4.1": (3.0, 9.0)})
+    assert listed.of("openai/gpt-4o-2024-08-06") == listed.of("gpt-4o")
+    assert listed.of("openai/gpt-4.1") == Price(3.0, 9.0)
+    assert listed.of("somebody/gpt-4o") is None

@@ -94,6 +94,14 @@ def test_retry_counts_are_never_exceeded(told_retries: int | None, errors: list[
     assert backend.report()["given_up"] == 1
 
 
+def test_a_stated_wait_of_0_s_is_no_reason_to_hurry() -> None:
+    failing = Failing(*[BackendUnavailable("busy", retryable=True, retry_after_s=0.0)] * 40)
+    backend = RetryBackend(failing.backend, 2, told_retries=30, rng=random.Random(0), sleep=failing.sleep)
+    with pytest.raises(BackendUnavailable):
+        asyncio.run(backend.complete(request()))
+    assert failing.waits_s == pytest.approx([0.5, 1.0], rel=0.25)
+
+
 @pytest.mark.parametrize("settings", [{"retries": -1}, {"told_retries": -1}], ids=str)
 def test_negative_retries_are_refused(settings: dict[str, int]) -> None:
     with pytest.raises(ConfigError, match="retries is -1"):

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from scene2hap.llm.json_text import answer_object, fields_of, first_object
+from scene2hap.llm.answers.json_text import answer_object, fields_of, first_object
 
 _JSON = st.recursive(
     st.none() | st.booleans() | st.integers() | st.text(),

@@ -11,7 +11,7 @@ from scene2hap import LexiconBackend, load_scene
 from scene2hap.demo import kitchen_path
 from scene2hap.llm.backends.image_tokens import image_tokens
 from scene2hap.llm.chain import infer_scene
-from scene2hap.llm.dry_run import dry_run, estimated_cost_usd
+from scene2hap.llm.chain.dry_run import dry_run, estimated_cost_usd
 from scene2hap.llm.wrappers.prices import price_list
 from scene2hap.scene.images import ImageSet, ObjectImages, Shot
 from scripted_backend import SCENE

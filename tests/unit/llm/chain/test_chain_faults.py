@@ -19,8 +19,11 @@ from scene2hap import (
     infer_haptics,
     materials,
 )
-from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, ReplayMiss
+from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, ReplayMiss, RequestRejected
 from scene2hap.llm.backends.chat import UnusableAnswer
+from scene2hap.llm.chain import infer_scene
+from scene2hap.llm.chain.questions import MOST_UNANSWERED
+from scenes import box, scene
 from scripted_backend import SCENE, Scripted, run
 
 STATE = {"name": "on", "intensity": 0.5, "needs_contact": None}
@@ -161,6 +164,59 @@ def test_lost_connection_affects_only_the_running_request() -> None:
     found = run(Flaky())
     assert found.report.errors == {"cup": "connection reset"}
     assert found.objects["phone"].vibrates
+
+
+class Rejecting(Scripted):
+    """Raise `error` for each object of `subjects`, or from the question with number `after` on."""
+
+    def __init__(self, error: Exception, subjects: tuple[str, ...] = (), after: int = 10**9) -> None:
+        super().__init__()
+        self.error, self.subjects, self.after = error, subjects, after
+
+    async def complete(self, request: LLMRequest) -> LLMReply:
+        reply = await super().complete(request)
+        if request.subject in self.subjects or len(self.asked) > self.after:
+            raise self.error
+        return reply
+
+
+MANY = scene(*(box(f"box {i}", (0.1 + 0.01 * i, 0.1, 0.1), (float(i), 0.05, 0.0)) for i in range(40)))
+REJECTED = RequestRejected("answered 400 (invalid_image_format)")
+AWAY = BackendUnavailable("answered 503", retryable=True)
+
+
+@pytest.mark.parametrize("first", ["table", "phone", "cup"])
+def test_a_rejected_question_affects_only_its_object(first: str) -> None:
+    found = run(Rejecting(REJECTED, (first,)), {"concurrency": 3})
+    assert found.report.errors == {first: str(REJECTED)}
+    assert found.objects[first].object_category == "unknown"
+
+
+def test_a_rejected_question_about_the_place_leaves_it_undefined() -> None:
+    found = run(Rejecting(REJECTED, ("",)))
+    assert found.scene_category == "undefined"
+    assert found.objects["table"].object_category == "table"
+
+
+def test_many_rejected_questions_beside_answers_do_not_stop_a_run() -> None:
+    rejected = tuple(f"box {i}" for i in range(20, 40))
+    found = asyncio.run(infer_scene(MANY, Rejecting(REJECTED, rejected), config={"concurrency": 1}))
+    assert set(found.report.errors) == set(rejected)
+
+
+@pytest.mark.parametrize("error", [REJECTED, AWAY], ids=["rejects all", "is away"])
+def test_a_service_that_rejects_every_question_gets_few(error: Exception) -> None:
+    backend = Rejecting(error, after=1)
+    with pytest.raises(BackendUnavailable, match="8 questions of the object_analyzer in a row .*answered [45]0[03]"):
+        asyncio.run(infer_scene(MANY, backend, config={"concurrency": 1}))
+    assert len(backend.asked) == 1 + MOST_UNANSWERED
+
+
+def test_a_service_that_goes_away_ends_the_run_in_place_of_silencing_all_other_objects() -> None:
+    backend = Rejecting(AWAY, after=12)
+    with pytest.raises(BackendUnavailable, match="no more are sent"):
+        asyncio.run(infer_scene(MANY, backend, config={"concurrency": 4}))
+    assert len(backend.asked) <= 12 + MOST_UNANSWERED + 4
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 import pytest
 
 from scene2hap.common.web import WebReply
+from scene2hap.errors import RequestRejected
 from scene2hap.llm.backends.http_errors import ServerError, failure, server_error
 
 NOW_S = 1_445_412_480.0
@@ -41,6 +42,11 @@ def test_retry_delay_above_two_minutes_is_not_waited_for() -> None:
     assert (error.retryable, error.retry_after_s) == (False, 121.0)
     assert "It asks to wait 121 s" in str(error)
     assert failure(reply(retry_after="120")).retryable
+
+
+@pytest.mark.parametrize("status", [400, 401, 403, 404, 413, 422, 429, 500])
+def test_a_status_tells_whether_other_requests_may_pass(status: int) -> None:
+    assert isinstance(failure(reply(status)), RequestRejected) is (status in (400, 413, 422))
 
 
 @pytest.mark.parametrize(("told", "retryable"), [("true", True), ("false", False), ("maybe", False)])

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from scene2hap.errors import UnknownMaterial
 from scene2hap.llm.answers import MaterialAnswer
-from scene2hap.llm.plausibility import constants, row_of
+from scene2hap.llm.validation.plausibility import constants, row_of
 from scene2hap.materials import Material, lookup
 
 _FIELDS = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from scene2hap.llm.answers import ObjectAnswer
-from scene2hap.llm.plausibility import EDGES
+from scene2hap.llm.validation.plausibility import EDGES
 from scene2hap.scene.surface import plate_sizes
 
 

@@ -16,11 +16,11 @@ from typing import Any
 from scene2hap.errors import BadAnswer
 from scene2hap.haptics import is_unknown
 from scene2hap.llm.backends.image_tokens import CHARACTERS_PER_TOKEN, image_tokens
-from scene2hap.llm.chain import infer_scene
-from scene2hap.llm.config import InferenceConfig
+from scene2hap.llm.chain.config import InferenceConfig
+from scene2hap.llm.chain.inference import infer_scene
+from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.protocol import COMPONENTS, Component, LLMReply, LLMRequest
-from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.wrappers.prices import Given, Price, PriceList, price_list
 from scene2hap.scene.snapshot import SceneSnapshot
 

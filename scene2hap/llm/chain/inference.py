@@ -17,8 +17,9 @@ from typing import Any, TypeVar, cast
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
+from scene2hap.common.run_coroutine import run_waiting
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, Scene2HapError
+from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, RequestRejected, Scene2HapError
 from scene2hap.haptics import (
     LEAST_MASS_KG,
     LONGEST_PASSAGE_S,
@@ -30,19 +31,18 @@ from scene2hap.haptics import (
 )
 from scene2hap.llm import BACKENDS
 from scene2hap.llm.answers import MaterialAnswer, ObjectAnswer, SceneAnswer, StateAnswer, VibrationAnswer
-from scene2hap.llm.config import InferenceConfig
+from scene2hap.llm.chain.config import InferenceConfig
+from scene2hap.llm.chain.questions import Questions, Slots
+from scene2hap.llm.chain.report import InferenceReport
+from scene2hap.llm.chain.sharing import copies, of_any_scene, reachable
 from scene2hap.llm.lexicon.categories import Measured, judge
-from scene2hap.llm.mass_check import bounded_mass_kg, mass_fault
-from scene2hap.llm.material_check import Estimate, from_model, from_table, without_answer
-from scene2hap.llm.plausibility import row_of
 from scene2hap.llm.prompts import Prompts
+from scene2hap.llm.prompts.quoting import clean
 from scene2hap.llm.protocol import LLMBackend
-from scene2hap.llm.questions import Questions, Slots
-from scene2hap.llm.quoting import clean
-from scene2hap.llm.report import InferenceReport
-from scene2hap.llm.run_coroutine import run_waiting
-from scene2hap.llm.sharing import copies, of_any_scene, reachable
-from scene2hap.llm.size_check import surface_size
+from scene2hap.llm.validation.masses import bounded_mass_kg, mass_fault
+from scene2hap.llm.validation.materials import Estimate, from_model, from_table, without_answer
+from scene2hap.llm.validation.plausibility import row_of
+from scene2hap.llm.validation.sizes import surface_size
 from scene2hap.materials import Material
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.copies import material_names
@@ -404,7 +404,7 @@ async def _scene_category(scene: SceneSnapshot, questions: Questions) -> str:
     facts = {"scene_name": clean(scene.name), "object_names": [clean(item.name) for item in scene.objects]}
     try:
         answer, _ = await questions.ask("scene_analyzer", "", facts, SceneAnswer, scene.images or ())
-    except BadAnswer as problem:
+    except (BadAnswer, RequestRejected) as problem:
         questions.report.errors[""] = str(problem)
         return "undefined"
     return answer.scene_category

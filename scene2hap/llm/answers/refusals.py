@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from scene2hap.llm.json_text import fields_of, first_object
+from scene2hap.llm.answers.json_text import fields_of, first_object
 
 FILTERED_REQUEST = frozenset({"content_filter", "content_policy_violation", "moderation_blocked"})
 """Codes of status 400 for a question that was withheld from the model: Azure's and OpenAI's."""

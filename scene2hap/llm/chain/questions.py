@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import inspect
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
@@ -13,13 +14,16 @@ from pydantic import ValidationError
 from scene2hap.common import checks
 from scene2hap.common.counted import counted
 from scene2hap.common.warning import warn_of
-from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError
+from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, RequestRejected
 from scene2hap.llm.answers import Answer, AnswerType, read_answer
+from scene2hap.llm.answers.json_text import answer_object
 from scene2hap.llm.backends import chat
-from scene2hap.llm.json_text import answer_object
+from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.prompts import Prompts
-from scene2hap.llm.protocol import Component, LLMBackend, LLMReply, LLMRequest
-from scene2hap.llm.report import InferenceReport
+from scene2hap.llm.protocol import AnswerPending, Component, LLMBackend, LLMReply, LLMRequest
+
+MOST_UNANSWERED = 8
+"""Questions of one component in a row without an answer that stop a run (assumed: all that run at once by default)."""
 
 
 class Slots:
@@ -39,6 +43,7 @@ class Questions:
 
     An error that would affect every further question (an exhausted budget, a rejected key, a recording that does not
     match) stops all questions. Running calls are completed, so that their answers are kept, and no new call begins.
+    So do `MOST_UNANSWERED` questions of one component in a row that the service does not answer.
     So does a cancellation, as by Ctrl-C; a second one ends the running calls too.
     """
 
@@ -60,6 +65,8 @@ class Questions:
         self._user_prompt = user_prompt
         self._temperature = temperature
         self._object_prompts = object_prompts or {}
+        self._unanswered: Counter[Component] = Counter()
+        self._answered: set[Component] = set()
 
     async def _completed(self, request: LLMRequest) -> LLMReply:
         """Return the backend's reply. Raises: ConfigError: it is not an `LLMReply`."""
@@ -142,11 +149,29 @@ class Questions:
         except Exception as problem:  # a backend of a user's own may raise any error
             if isinstance(problem, chat.UnusableAnswer):  # it was billed although it is unusable
                 self.report.take(LLMReply("", problem.model, usage=problem.usage, service_tier=problem.service_tier))
-            if not _is_about_one_question(problem):
-                self.closed_by = problem
+            self._close_if_general(request.component, problem)
             raise
+        self._answered.add(request.component)
+        if not reply.is_kept:  # a stored answer does not show that the service is there
+            self._unanswered[request.component] = 0
         self.report.take(reply)
         return reply
+
+    def _close_if_general(self, component: Component, problem: Exception) -> None:
+        """Stop all questions if an error concerns more than its own question."""
+        if isinstance(problem, BadAnswer):
+            self._unanswered[component] = 0
+        elif isinstance(problem, RequestRejected) and component in self._answered:
+            pass  # other questions of this form were accepted, so the fault is in its pictures or its length
+        elif isinstance(problem, RequestRejected) or (isinstance(problem, BackendUnavailable) and problem.retryable):
+            self._unanswered[component] += 0 if isinstance(problem, AnswerPending) else 1
+            if self._unanswered[component] >= MOST_UNANSWERED and self.closed_by is None:
+                self.closed_by = BackendUnavailable(
+                    f"{counted(MOST_UNANSWERED, 'question')} of the {component} in a row had no answer, so that no "
+                    f"more are sent. The last error: {problem}"
+                )
+        else:
+            self.closed_by = problem
 
     def has_own_prompt(self, subject: str) -> bool:
         """Return True if the user gave a prompt for this object alone."""
@@ -159,10 +184,6 @@ class Questions:
 @cache
 def _schema(shape: type[Answer]) -> dict[str, Any]:
     return shape.model_json_schema()
-
-
-def _is_about_one_question(problem: Exception) -> bool:
-    return isinstance(problem, BadAnswer) or (isinstance(problem, BackendUnavailable) and problem.retryable)
 
 
 def _validated(reply: LLMReply, shape: type[AnswerType], about: str) -> AnswerType:

@@ -9,8 +9,8 @@ import pytest
 
 from scene2hap import LLMReply, LLMRequest, infer_haptics
 from scene2hap.llm.chain import infer_scene
+from scene2hap.llm.chain.questions import Slots
 from scene2hap.llm.prompts import VERSION
-from scene2hap.llm.questions import Slots
 from scene2hap.llm.wrappers import price_list
 from scripted_backend import SCENE, Scripted, run
 

@@ -1,7 +1,7 @@
 """Comparison of an answer's numbers with measured sizes and with published material constants.
 
-One repair requests all numbers out of bounds again (`validation.find_fault`). Numbers that stay out of bounds are
-replaced by the measured size (`size_check`) or by the table's constant (`material_check`).
+One repair requests all numbers out of bounds again (`faults.find_fault`). Numbers that stay out of bounds are
+replaced by the measured size (`sizes`) or by the table's constant (`materials`).
 """
 
 from __future__ import annotations
@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, TypeGuard
 
-from scene2hap.llm.mass_check import mass_fault
 from scene2hap.llm.protocol import Component
+from scene2hap.llm.validation.masses import mass_fault
 from scene2hap.materials import MaterialRow, find_row
 from scene2hap.scene.surface import plate_sizes
 

@@ -8,10 +8,9 @@ import pytest
 
 from llm_server import GOOD, request
 from scene2hap import FunctionBackend, LLMReply, LLMRequest, RepairBackend, materials
-from scene2hap.llm import chain
-from scene2hap.llm.chain import infer_scene
-from scene2hap.llm.plausibility import constants, row_of
+from scene2hap.llm.chain import infer_scene, inference
 from scene2hap.llm.validation import find_fault
+from scene2hap.llm.validation.plausibility import constants, row_of
 from scene2hap.materials import table
 from scene2hap.scene.surface.plate_sizes import THINNEST_M, assumed_thickness_m, with_thickness
 from scripted_backend import SCENE, Scripted, run
@@ -203,7 +202,7 @@ def test_report_lists_contact_needs_that_no_object_meets() -> None:
 def test_categories_are_collected_once_per_scene(monkeypatch: pytest.MonkeyPatch) -> None:
     """The list is made once, not for each object, since scenes of thousands would take seconds."""
     given: list[object] = []
-    monkeypatch.setattr(chain, "unmet_needs", lambda key, states, categories: given.append(categories) or ())
+    monkeypatch.setattr(inference, "unmet_needs", lambda key, states, categories: given.append(categories) or ())
     asyncio.run(infer_scene(SCENE, Scripted()))
     assert len(given) == len(SCENE.objects) > 1
     assert all(one is given[0] for one in given)

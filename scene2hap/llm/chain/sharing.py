@@ -6,7 +6,7 @@ from collections.abc import Hashable, Iterable, Mapping
 from typing import Any
 
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.llm.quoting import clean
+from scene2hap.llm.prompts.quoting import clean
 from scene2hap.scene.copies import copy_key, name_words
 from scene2hap.scene.hinges import Chain
 from scene2hap.scene.objects import VERTICAL, Contact

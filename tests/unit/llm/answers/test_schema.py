@@ -9,7 +9,7 @@ import pytest
 
 from llm_server import GOOD
 from scene2hap.errors import ConfigError
-from scene2hap.llm.schema import fields_in_words, local_schema, strict_schema
+from scene2hap.llm.answers.schema import fields_in_words, local_schema, strict_schema
 from scene2hap.llm.validation import ANSWERS
 
 SCHEMAS = {component: shape.model_json_schema() for component, shape in ANSWERS.items()}

@@ -25,11 +25,11 @@ from scene2hap import (
 from scene2hap.cli import main
 from scene2hap.errors import BundleError, ConfigError, SceneError
 from scene2hap.llm.answers import ObjectAnswer
+from scene2hap.llm.answers.schema import strict_schema
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.lexicon.table import table
-from scene2hap.llm.mass_check import bounded_mass_kg, mass_fault
-from scene2hap.llm.plausibility import row_of
-from scene2hap.llm.schema import strict_schema
+from scene2hap.llm.validation.masses import bounded_mass_kg, mass_fault
+from scene2hap.llm.validation.plausibility import row_of
 from scene2hap.scene.engines import mujoco as mujoco_adapter
 from scenes import table_with_two_phones
 

@@ -8,7 +8,7 @@ import pytest
 
 from scene2hap import LexiconBackend
 from scene2hap.llm.chain import infer_scene
-from scene2hap.llm.quoting import IS_DATA, LONGEST_NAME, LONGEST_TEXT, MOST_ITEMS, as_data, clean, shown
+from scene2hap.llm.prompts.quoting import IS_DATA, LONGEST_NAME, LONGEST_TEXT, MOST_ITEMS, as_data, clean, shown
 from scenes import box, scene
 from scripted_backend import Scripted
 

@@ -9,7 +9,7 @@ from llm_asking import ask, local, openai
 from llm_server import GOOD, refused, request, said, serving
 from scene2hap import LLMReply, LLMRequest
 from scene2hap.errors import AnswerRefused, BadAnswer
-from scene2hap.llm.refusals import refusal_in
+from scene2hap.llm.answers.refusals import refusal_in
 from scene2hap.llm.wrappers.repair import RepairBackend
 from scene2hap.llm.wrappers.standard import standard_stack
 from scripted_backend import Scripted, run

@@ -9,7 +9,7 @@ from typing import Any
 import httpx
 import pytest
 
-from llm_server import GOOD, KEY, request, said
+from llm_server import GOOD, KEY, request, said, serving
 from scene2hap import OpenAIBackend
 from scene2hap.common.secret import Secret
 from scene2hap.common.web import WebReply
@@ -149,6 +149,16 @@ def test_error_names_the_proxy_that_does_not_answer(monkeypatch: pytest.MonkeyPa
     with pytest.raises(BackendUnavailable, match="through the proxy of HTTP_PROXY") as caught:
         asyncio.run(Endpoint("http://model.example/v1", Secret(), 5.0).post("chat", {}))
     assert "hunter2" not in "".join(traceback.format_exception(caught.value))
+
+
+@pytest.mark.parametrize("proxy", ["http://127.0.0.1:1", "nonsense://127.0.0.1"])
+def test_a_server_on_this_machine_is_reached_without_the_proxy(proxy: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("http_proxy", "all_proxy"):
+        monkeypatch.setenv(name, proxy)
+    for name in ("no_proxy", "NO_PROXY"):
+        monkeypatch.delenv(name, raising=False)
+    with serving(said()) as server:
+        assert asyncio.run(Endpoint(server.base_url, Secret(), 5.0).post("chat", {})).ok
 
 
 @pytest.mark.parametrize("port", ["114340", "abc"])

@@ -7,8 +7,8 @@ import pytest
 
 from scene2hap.errors import ConfigError
 from scene2hap.llm.prompts import VERSION, Prompts, placeholders
+from scene2hap.llm.prompts.quoting import IS_DATA
 from scene2hap.llm.protocol import COMPONENTS
-from scene2hap.llm.quoting import IS_DATA
 from scene2hap.scene.shapes import SurfaceFlag
 
 

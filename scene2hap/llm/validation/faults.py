@@ -11,9 +11,9 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from scene2hap.llm.answers import Answer, MaterialAnswer, ObjectAnswer, SceneAnswer, VibrationAnswer, read_answer
-from scene2hap.llm.json_text import fields_of
-from scene2hap.llm.plausibility import implausible
+from scene2hap.llm.answers.json_text import fields_of
 from scene2hap.llm.protocol import Component
+from scene2hap.llm.validation.plausibility import implausible
 
 ANSWERS: Mapping[Component, type[Answer]] = {
     "scene_analyzer": SceneAnswer,
