@@ -79,11 +79,12 @@ class Budget:
     advice: str = "Split or simplify the scene, or export it again without shared or empty data."
 
     def spend(self, amount: int, place: str) -> None:
-        """Count an `amount` that `place` requests. Raises: SceneError: the total exceeds the bound."""
-        self.spent += amount
+        """Count an `amount` that `place` requests. Raises: SceneError: the total would exceed the bound."""
+        total = self.spent + amount
         allowed = self.free + int(self.per_stored * self.stored)
-        if self.spent > allowed:
+        if total > allowed:
             raise SceneError(
-                f"{place} brings {self.what} to {self.spent:,}; at most {allowed:,} are read "
+                f"{place} brings {self.what} to {total:,}; at most {allowed:,} are read "
                 f"where {self.stored:,} {self.unit} are stored. {self.advice}"
             )
+        self.spent = total

@@ -11,6 +11,7 @@ import pytest
 import trimesh
 
 from scene2hap import SceneSnapshot, load_scene
+from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.engines import mjcf_files, mujoco_geoms
@@ -91,9 +92,23 @@ def tetrahedra(folder: Path, n: int) -> Path:
 
 def test_distinct_shapes_are_limited_by_a_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(surfaces, "_FREE", 50_000)
-    assert len(load_scene(tetrahedra(tmp_path, 1)).objects) == 1
-    with pytest.raises(SceneError, match="object 't[1-3]' brings the rays that measure its shapes.*copies of fewer"):
-        load_scene(tetrahedra(tmp_path, 5))
+    assert "box-fallback" not in load_scene(tetrahedra(tmp_path, 1)).objects[0].surface.flags
+    with pytest.warns(SceneWarning, match="object 't[1-3]' brings the rays that measure its shapes.*boxes") as warned:
+        first, *_, last = load_scene(tetrahedra(tmp_path, 5)).objects
+    assert len(warned) == 1
+    assert "box-fallback" not in first.surface.flags
+    assert "box-fallback" in last.surface.flags
+    assert sorted([last.surface.length_m, last.surface.width_m, last.surface.thickness_m]) == [1.0, 1.0, 5.0]
+
+
+def test_a_shape_above_the_budget_leaves_the_budget_to_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A mesh that is refused has used none of it."""
+    monkeypatch.setattr(surfaces, "_FREE", 200_000)
+    measured, up = surfaces.Surfaces(), np.array([0.0, 1.0, 0.0])
+    rough, plain = trimesh.creation.icosphere(5), trimesh.creation.icosphere(1)
+    with pytest.warns(SceneWarning, match="the first"):
+        assert "box-fallback" in measured.of(TriMesh(rough.vertices, rough.faces), up, "the first").flags
+    assert "box-fallback" not in measured.of(TriMesh(plain.vertices, plain.faces), up, "the second").flags
 
 
 def test_vertices_of_scene_json_raise_the_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -370,5 +385,5 @@ def test_generated_shapes_do_not_raise_the_budget(tmp_path: Path, monkeypatch: p
     pytest.importorskip("mujoco")
     monkeypatch.setattr(surfaces, "_FREE", 100_000)
     balls = "".join(f'<body pos="{9 * i} 0 0"><geom size="{1 + i / 10}"/></body>' for i in range(10))
-    with pytest.raises(SceneError, match="where 0 vertices are stored|where 8 vertices are stored"):
+    with pytest.warns(SceneWarning, match="where 0 vertices are stored|where 8 vertices are stored"):
         load_scene(mjcf(tmp_path, balls), unit_m=1.0)
