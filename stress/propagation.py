@@ -50,7 +50,7 @@ from scene2hap.errors import Scene2HapError
 from scene2hap.propagation.domain import SlowPlateWarning, ThinPlateWarning
 from scene2hap.propagation.lattice.bending_lattice import bending_lattice
 from scene2hap.propagation.lattice.stepping import ExactStepper, NewmarkStepper, State, Stepper, viscous_difference_db
-from scene2hap.propagation.mass_spring_damper import MassSpringDamper
+from scene2hap.propagation.mass_spring_damper import CoarsenedWarning, MassSpringDamper
 
 MODELS = {
     "exponential": ExponentialPlate(),
@@ -115,7 +115,9 @@ def _reason(error: Scene2HapError) -> str:
     text = str(error)
     for sign, reason in (
         ("loss factor of 0", "no loss"),
-        ("cells of a lattice", "waves shorter than the lattice"),
+        ("makes waves of", "waves shorter than the lattice"),
+        ("modes of a lattice", "too many modes of the lattice"),
+        ("it must be 0 to", "a frequency out of bounds"),
         ("nodes", "too many nodes"),
         ("functions in one eigenproblem", "too many modes"),
         ("frequencies to resolve", "too little loss for bands"),
@@ -276,12 +278,13 @@ def lattice_steppers(
 
 
 def run(n_kernels: int, n_scenes: int, limit_s: float = 60.0, only: int | None = None) -> dict[str, Tally]:
-    """Query all models; RuntimeWarnings of numpy count as bad."""
+    """Query all models; warnings that are not our own count as bad."""
     tallies: dict[str, Tally] = collections.defaultdict(Tally)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         warnings.simplefilter("ignore", ThinPlateWarning)
         warnings.simplefilter("ignore", SlowPlateWarning)
+        warnings.simplefilter("ignore", CoarsenedWarning)
         warnings.simplefilter("ignore", SceneWarning)  # materials are drawn beyond real ones
         for case, n in ((kernels, n_kernels), (scenes, n_scenes)):
             for number in range(n) if only is None else [only]:
