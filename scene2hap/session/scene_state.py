@@ -16,7 +16,7 @@ from scene2hap.scene.objects import Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import RemovedIds
-from scene2hap.session.impacts.slams import Slam, Way, slam_of
+from scene2hap.session.impacts.slams import Slam, Way, is_closed, slam_of
 from scene2hap.session.network import Corners, Middles, PlatePoses, body_of, own_half_m, own_middle_m, rigid_body_of
 from scene2hap.session.reach import Reach, reach_over
 
@@ -116,6 +116,12 @@ class SceneState:
         if item.hinge is None or holder is None:
             return None
         return slam_of(item, item.hinge, holder, way(holder.id))
+
+    def is_closed(self, object_id: str, other: str, way: Way) -> bool:
+        """Whether an object is a drawer, or the like, that another encloses where the scene has it: see `slams`."""
+        item, holder, pose = self.objects[object_id], self.objects[other], self.graph.pose
+        up_axis = {"y": 1, "z": 2}[self._scene.up_axis]
+        return is_closed(item, holder, way, (pose(object_id), pose(other)), up_axis)
 
     def on_plate(self, object_id: str, point_m: tuple[float, float, float]) -> tuple[float, float] | None:
         """Coordinates of a world point [m] along length and width of an object's plate; None without a plate."""

@@ -8,7 +8,7 @@ of the step before, in length and in speed. These motions are no landings:
 - an object that slides: most of its travel is across the contact's normal;
 - an object that rolls: its rim comes down on the floor, while its middle keeps its distance.
 
-A hinge is the only contact of a door with its cabinet. What meets the cabinet is its far edge (`slams`).
+Doors and drawers meet their cabinet where no contact shows it (`slams`).
 """
 
 from __future__ import annotations
@@ -70,21 +70,28 @@ class Landing(NamedTuple):
 
 
 class _Approach(NamedTuple):
-    """A point at which an object came nearer to another one: travel there [m], and the normal towards the other."""
+    """A point at which an object came nearer to another one: travel there [m], and the normal towards the other.
+
+    meets : tells whether the two meet there, which may take a millisecond; None for sure. is_contact : False for the
+    edge of a door, and for a drawer; is_seen : False where nothing at the point shows that the object is there.
+    """
 
     other: str
-    is_slam: bool
     point_m: Vector
     came_m: Vector
     normal: Vector
+    meets: Callable[[], bool] | None = None
+    is_contact: bool = True
+    is_seen: bool = True
 
 
 class Landings:
     """Follows moving objects, and finds those that land.
 
     Parameters: graph : the contacts, read at each `look`; middle_m : the middle of an object's box, in its own frame
-    [m]; half_m : half the sides of this box [m]; slam : what an object on a hinge may slam against; period_s : usual
-    time between updates, for a clock that stands still.
+    [m]; half_m : half the sides of this box [m]; slam : what an object on a hinge may slam against; is_closed :
+    whether an object is a closed drawer of another; period_s : usual time between updates, for a clock that stands
+    still.
     """
 
     def __init__(
@@ -93,10 +100,11 @@ class Landings:
         middle_m: Callable[[str], Vector],
         half_m: Callable[[str], Vector],
         slam: Callable[[str, Callable[[str], Way]], Slam | None],
+        is_closed: Callable[[str, str, Way], bool],
         period_s: float,
     ) -> None:
         self._graph, self._middle_m, self._half_m = graph, middle_m, half_m
-        self._slam = slam
+        self._slam, self._is_closed = slam, is_closed
         self._period_s = period_s
         self._tracks: dict[str, MotionTrack] = {}
         self._near: dict[str, dict[str, Junction]] = {}
@@ -221,25 +229,22 @@ class Landings:
     def _landing(self, object_id: str, track: MotionTrack, time_s: float) -> list[Landing]:
         """The landing on the touched object that was approached the fastest, of equal ones the first by id; empty if
         there is none."""
-        run, earlier = track.run(), track.run(1)  # the two may have met early in the last step
-        steps = sorted({*earlier, *run})
+        runs = track.run(), track.run(1)  # the two may have met early in the last step
+        steps = sorted({*runs[0], *runs[1]})
         (first, _), (before, before_s), (last, end_s) = steps[0], steps[-2], steps[-1]
         best, most_m, speed, now = None, LEAST_TRAVEL_M, 0.0, self._n_updates
         # The step after a long frame is short, without being slow. The ratio is unknown if the clock stands still.
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
         beside, met = self._graph.beside.get(object_id, _NOTHING), self._met(object_id)
-        slam = self._slam(object_id, partial(self._way, track))
-        holder = None if slam is None else slam.holder
-        # Sorted, since the graph's order depends on the hashes of ids, which differ in each run of Python. Present
-        # contacts come first, and hinges last among these: a contact elsewhere shows where the two objects meet.
-        others = sorted(met, key=lambda x: (x not in beside, x == holder, x))
-        for other, is_slam, point, came, normal in self._approaches(object_id, others, met, slam, (first, last)):
-            if best is not None and (other not in beside or is_slam):
+        for one in self._approaches(object_id, track, met, (first, last)):
+            other, point, came, normal = one[:4]
+            if best is not None and not (other in beside and one.is_contact):
                 continue
             closing = dot(came, normal)
             if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
-                if self._is_early(object_id, track, point, normal):
+                is_there = one.is_seen and self._is_at(object_id, track, point, normal)
+                if not is_there and self._has_just_stopped(object_id, track):
                     continue
                 step = dot(self._nearing(object_id, other, point, before, last), normal)
                 onward = dot(self._nearing(object_id, other, point, last, now), normal)
@@ -249,45 +254,57 @@ class Landings:
                     continue
                 if not self._stops_suddenly(object_id, other, point, normal, [*steps, (now, time_s)]):
                     continue
-                # A door that slams meets its holder with its edge, and not at its hinge. To find it takes longest.
-                if slam is None or other != holder or slam.meets == is_slam:
+                if one.meets is None or one.meets():
                     best, most_m = (other, point), closing
-                    speed = max(self._speed(object_id, other, point, normal, one) for one in (run, earlier))
+                    speed = max(self._speed(object_id, other, point, normal, run) for run in runs)
         if best is None:
             return []
         return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
 
     def _approaches(
-        self,
-        object_id: str,
-        others: Sequence[str],
-        met: Mapping[str, Junction],
-        slam: Slam | None,
-        between: tuple[int, int],
+        self, object_id: str, track: MotionTrack, met: Mapping[str, Junction], between: tuple[int, int]
     ) -> Iterator[_Approach]:
-        """Where an object may have met others: its contacts, split by their normals, and its edge before its hinge."""
+        """Where an object may have met others.
+
+        Present contacts come first, a contact at a hinge last among these, since a contact elsewhere shows where the
+        two objects meet. Drawers come last. Sorted, since the graph's order depends on the hashes of ids, which differ
+        in each run of Python.
+        """
+        beside, pose = self._graph.beside.get(object_id, _NOTHING), self._graph.pose(object_id)
+        slam = self._slam(object_id, partial(self._way, track))
+        holder = None if slam is None else slam.holder
+        others = sorted(met, key=lambda x: (x not in beside, x == holder, x))
         for other in others:
-            if slam is not None and other == slam.holder:
-                point = in_world(slam.edge_m, self._graph.pose(object_id))
+            meets: Callable[[], bool] | None = None
+            if slam is not None and other == holder:
+                point = in_world(slam.edge_m, pose)
                 came = self._nearing(object_id, other, point, *between)
-                yield _Approach(other, True, point, came, _direction(came))
+                yield _Approach(other, point, came, _direction(came), slam.meets, is_contact=False)
+                meets = slam.misses
             for side in _sides(met[other]):
                 point = _middle(side)
                 came = self._nearing(object_id, other, point, *between)
-                yield _Approach(other, False, point, came, self._normal(object_id, other, point, side, between[0]))
+                yield _Approach(other, point, came, self._normal(object_id, other, point, side, between[0]), meets)
+        for other in others:
+            if other != holder and other in beside:
+                point = _middle(met[other])
+                came = self._nearing(object_id, other, point, *between)
+                closed = partial(self._is_closed, object_id, other, self._way(track, other))
+                yield _Approach(other, point, came, _direction(came), closed, is_contact=False, is_seen=False)
 
-    def _is_early(self, object_id: str, track: MotionTrack, point_m: Vector, normal: Vector) -> bool:
-        """Whether an object has just stopped in mid air: physics may be slower than the frames, and miss one.
+    def _has_just_stopped(self, object_id: str, track: MotionTrack) -> bool:
+        """Whether an object has no step in this update: physics may be slower than the frames, and miss one."""
+        return self._graph.pose(object_id) == track.pose and track.has_stopped(self._n_updates)
+
+    def _is_at(self, object_id: str, track: MotionTrack, point_m: Vector, normal: Vector) -> bool:
+        """Whether an object reaches a contact, and has not stopped in mid air.
 
         The point of a contact is half way between the two surfaces. The box around the object reaches at least as far
         as its own.
         """
-        pose = self._graph.pose(object_id)
-        if pose != track.pose or not track.has_stopped(self._n_updates):
-            return False
-        own_normal: list[float] = (np.array(normal) @ pose.rotation).tolist()
+        own_normal: list[float] = (np.array(normal) @ self._graph.pose(object_id).rotation).tolist()
         reach_m = sum(abs(part) * half for part, half in zip(own_normal, self._half_m(object_id), strict=True))
-        return 2 * (dot(_difference(point_m, track.middle_m), normal) - reach_m) > TOUCH_M
+        return 2 * (dot(_difference(point_m, track.middle_m), normal) - reach_m) <= TOUCH_M
 
     def _speed(
         self, object_id: str, other: str, point_m: Vector, normal: Vector, run: Sequence[tuple[int, float]]

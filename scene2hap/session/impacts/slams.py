@@ -1,9 +1,11 @@
-"""Find what a door or a lid slams against: the object that a hinge holds it on lies in the way of its far half.
+"""Find what a door, a lid or a drawer slams against, where contacts do not show it.
 
-The contact at a hinge does not show where the two meet. A door has met what it hangs on if the half of its box far from
-its axis was clear of it when the motion began, and would pass through it with one more step like the last.
+A hinge is the only contact of a door or lid. It has met what it hangs on if the half of its box far from its axis was
+clear of it when the motion began, and would pass through it with one more step like the last. Links of a robot that
+moves are near each other all the time. So nothing slams against what moves on a hinge itself.
 
-Links of a robot that moves are near each other all the time. So nothing slams against what moves on a hinge itself.
+A drawer slides along its contacts, and models lack the stops behind it. It has met what encloses it if it is where the
+scene has it: scenes are authored with their drawers closed.
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ from itertools import product
 import numpy as np
 
 from scene2hap.contact.body import Body
+from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.geometry.boxes import Boxes
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.shape import Shape, shape_of
@@ -25,6 +28,8 @@ from scene2hap.scene.objects import Hinge, SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import Box
 
+CLOSED_M = 0.005
+"""Greatest distance of a closed drawer from its place in the scene [m]; assumed: physics engines let it rebound."""
 _ENDS = np.array(list(product((0, 1), repeat=3)))
 """The end of a box along each axis at which each of its corners is."""
 
@@ -53,9 +58,16 @@ class Slam:
         self._far_half = (far + (low + high) / 2) / 2, np.where(np.arange(3) == axis, 0.5, 1.0) * (high - low)
         self._travel_m = float(travels_m.max())
 
-    @cached_property
     def meets(self) -> bool:
         """Whether the holder is in the way of the far half. Finding it takes a millisecond."""
+        return self._meets
+
+    def misses(self) -> bool:
+        """Whether the way of the far half is free."""
+        return not self._meets
+
+    @cached_property
+    def _meets(self) -> bool:
         middle_m, sizes_m = self._far_half
         half, at = _box(tuple(sizes_m.tolist())), Pose(tuple(middle_m))
         begin, before, now = (_relative(poses).compose(at) for poses in self._way)
@@ -75,6 +87,22 @@ def slam_of(item: SceneObject, hinge: Hinge, holder: SceneObject, way: Way) -> S
     if math.dist(_relative(way[-1]).to_world([hinge.point_m])[0], hinge.other_point_m) >= HINGE_PLAY_M:
         return None
     return Slam(item, holder, way)
+
+
+def is_closed(item: SceneObject, holder: SceneObject, way: Way, now: tuple[Pose, Pose], up_axis: int) -> bool:
+    """Return True if a drawer is in a larger object as it is in the scene, or was within its last step and rebounds.
+
+    Parameters: now : the poses after the step in which it stopped or turned, if that is no step of `way`.
+    """
+    *_, before, last = (_relative(poses).position_m for poses in way)
+    travel_m = 0.0 if _relative(now).position_m == last else math.dist(before, last)
+    if math.dist(last, _relative((item.pose, holder.pose)).position_m) > CLOSED_M + travel_m:
+        return False
+    poses = way[-1]
+    drawer, carcass = (
+        Body("", shape_of(x.geometry.mesh), at, up_axis) for x, at in zip((item, holder), poses, strict=True)
+    )
+    return drawer.size_m < carcass.size_m and enclosed(drawer, carcass)[0] > 0
 
 
 def _relative(poses: tuple[Pose, Pose]) -> Pose:

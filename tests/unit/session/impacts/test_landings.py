@@ -45,11 +45,19 @@ def _without_hinge(object_id: str, way: Callable[[str], Way]) -> None:
     pass
 
 
+def _not_closed(object_id: str, other: str, way: Way) -> bool:
+    return False
+
+
+def followed(graph: ContactGraph, period_s: float, middle_m: Callable[[str], Triple] = _middle) -> Landings:
+    return Landings(graph, middle_m, _half, _without_hinge, _not_closed, period_s)
+
+
 def landings_of(path: Path, *, moved: str = "cup", period_s: float = PERIOD_S, clock: bool = True) -> list[Landing]:
     """The landings while an object moves along a path, and for half a second afterwards."""
     graph = room()
     landings, found, time_s, last = (
-        Landings(graph, _middle, _half, _without_hinge, period_s),
+        followed(graph, period_s),
         list[Landing](),
         0.0,
         None,
@@ -72,7 +80,7 @@ def landings_in(
     middle_m: Callable[[str], Triple] = _middle,
 ) -> list[Landing]:
     """What lands in frames of a time [s] and poses, and in half a second more."""
-    landings, found, time_s = Landings(graph, middle_m, _half, _without_hinge, PERIOD_S), list[Landing](), 0.0
+    landings, found, time_s = followed(graph, PERIOD_S, middle_m), list[Landing](), 0.0
     given = [*frames]
     for time_s, poses in [*given, *((given[-1][0] + (i + 1) * PERIOD_S, {}) for i in range(45))]:
         landings.begin(poses, time_s)
@@ -127,7 +135,7 @@ def test_object_does_not_land_in_mid_air_where_slower_physics_misses_a_frame(
             frames.append((time_s, {}))
     graph = room()
     graph.update({"cup": Pose((0.0, RESTS_M + height_m, 0.0))})
-    landings, when = Landings(graph, _middle, _half, _without_hinge, 1 / 60), list[float]()
+    landings, when = followed(graph, 1 / 60), list[float]()
     for time_s, poses in frames:
         landings.begin(poses, time_s)
         graph.update(poses)
@@ -159,7 +167,7 @@ def test_object_that_lands_on_several_lands_on_the_first_by_id(names: str) -> No
 def lands_in(path: Path) -> int:
     """The number of the frame in which the cup lands."""
     graph = room()
-    landings, when = Landings(graph, _middle, _half, _without_hinge, PERIOD_S), []
+    landings, when = followed(graph, PERIOD_S), []
     for step, position in enumerate(path):
         poses = {"cup": Pose(position)}
         landings.begin(poses, step * PERIOD_S)
@@ -256,7 +264,7 @@ def test_object_that_moves_in_some_of_many_updates_lands(phase: int) -> None:
 def test_contact_in_any_update_of_a_fast_bounce_counts(updates_hz: int) -> None:
     """A ball that bounces off within 2 ms is out of reach by the end of the step, whose contacts an engine gives."""
     graph = room()
-    landings, found = Landings(graph, _middle, _half, _without_hinge, PERIOD_S), list[Landing]()
+    landings, found = followed(graph, PERIOD_S), list[Landing]()
     for step in range(round(0.4 * updates_hz)):
         t = step / updates_hz - 0.2
         y = RESTS_M + (-4.0 * t if t < 0 else 3.0 * t)
@@ -286,7 +294,7 @@ def test_turning_object_that_bounces_as_high_as_it_fell_lands(begins: float, fra
         meets = Contact("cup", "table", (0.0, 0.7, 0.0), (0.0, -1.0, 0.0))
         frames.append((step / frames_hz, {"cup": pose}, [meets] if abs(t) < 1 / frames_hz else []))
     graph = room()
-    landings, found = Landings(graph, _middle, _half, _without_hinge, PERIOD_S), list[Landing]()
+    landings, found = followed(graph, PERIOD_S), list[Landing]()
     for time_s, poses, touching in frames:
         landings.begin(poses, time_s)
         graph.update(poses, contacts=touching)
@@ -341,7 +349,7 @@ def test_resting_sliding_or_jittering_object_does_not_land(kind: Callable[[np.ra
 
 def test_objects_carried_together_do_not_land() -> None:
     graph = room()
-    landings = Landings(graph, _middle, _half, _without_hinge, PERIOD_S)
+    landings = followed(graph, PERIOD_S)
     graph.update({"cup": Pose((-0.4, 0.79, 0.2))})
     found = []
     for step in range(40):
@@ -355,7 +363,7 @@ def test_objects_carried_together_do_not_land() -> None:
 
 def test_dropped_stack_lands_with_its_lowest_object() -> None:
     graph = room()
-    landings = Landings(graph, _middle, _half, _without_hinge, PERIOD_S)
+    landings = followed(graph, PERIOD_S)
     found = []
     for step in range(40):
         y = max(0.0, 0.5 - 0.03 * step)
@@ -368,7 +376,7 @@ def test_dropped_stack_lands_with_its_lowest_object() -> None:
 
 def test_object_removed_while_falling_does_not_land() -> None:
     graph = room()
-    landings = Landings(graph, _middle, _half, _without_hinge, PERIOD_S)
+    landings = followed(graph, PERIOD_S)
     for step in range(3):
         poses = {"cup": Pose((0.0, 1.2 - 0.03 * step, 0.0))}
         landings.begin(poses, step * PERIOD_S)
@@ -526,7 +534,7 @@ def test_block_that_slides_on_a_tray_lands_on_its_rim() -> None:
     graph = ContactGraph(
         scene(box("block", (0.06, 0.06, 0.06), (0.0, 0.03, 0.0)), box("tray", (0.8, 0.02, 0.6), (0, -0.01, 0)))
     )
-    landings, found = Landings(graph, _middle, _half, _without_hinge, PERIOD_S), list[Landing]()
+    landings, found = followed(graph, PERIOD_S), list[Landing]()
     for frame in range(45):
         x = min(0.01 * frame, 0.35)
         contacts = [Contact("block", "tray", (x + dx, 0.0, 0.0), (0.0, -1.0, 0.0)) for dx in (-0.03, 0.03)]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from scene2hap import Box, HapticSession, Impact, Pose, SceneObject, SceneSnapshot, Touch, TriMesh, bake
+from scene2hap import Box, HapticSession, Impact, MuJoCoLink, Pose, SceneObject, SceneSnapshot, Touch, TriMesh, bake
 from scene2hap.contact.shape import shape_of
 from scene2hap.session.impacts.slams import slam_of
 
@@ -205,5 +205,148 @@ def test_a_slam_on_a_detailed_mesh_builds_no_search_tree_of_it() -> None:
     assert hinged_door.hinge is not None
     slam = slam_of(hinged_door, hinged_door.hinge, cabinet, way)
     assert slam is not None
-    assert slam.meets
+    assert slam.meets()
     assert "tree" not in vars(shape)
+
+
+# -- drawers -----------------------------------------------------------------------------------------------------------
+
+CARCASS_M, BOARD_M = (0.5, 0.3, 0.5), 0.018
+
+
+def boards(*boxes: tuple[tuple[float, float, float], tuple[float, float, float]]) -> TriMesh:
+    """One mesh of boxes, each by its middle and size [m]."""
+    meshes = [trimesh.creation.box(size_m, trimesh.transformations.translation_matrix(at)) for at, size_m in boxes]
+    whole = trimesh.util.concatenate(meshes)
+    return TriMesh(whole.vertices, whole.faces)
+
+
+def chest(gap_below_m: float) -> tuple[SceneObject, SceneObject]:
+    """A carcass that is open in front, and its closed drawer with a front that covers the opening."""
+    w, h, d = CARCASS_M
+    t = BOARD_M
+    carcass = boards(
+        ((0, t / 2, 0), (w, t, d)),
+        ((0, h - t / 2, 0), (w, t, d)),
+        ((-w / 2 + t / 2, h / 2, 0), (t, h - 2 * t, d)),
+        ((w / 2 - t / 2, h / 2, 0), (t, h - 2 * t, d)),
+        ((0, h / 2, -d / 2 + t / 2), (w - 2 * t, h - 2 * t, t)),
+    )
+    inner_w, inner_d, bottom = w - 2 * t - 0.025, d - 0.06, t + gap_below_m
+    drawer = boards(
+        ((0, bottom + 0.006, 0.03), (inner_w, 0.012, inner_d)),
+        ((-inner_w / 2 + 0.006, bottom + 0.08, 0.03), (0.012, 0.136, inner_d)),
+        ((inner_w / 2 - 0.006, bottom + 0.08, 0.03), (0.012, 0.136, inner_d)),
+        ((0, h / 2, d / 2 + 0.009), (w, h, 0.018)),
+    )
+    pose = Pose((0.0, 0.0, 0.0))
+    return SceneObject("wooden cabinet", pose=pose, geometry=carcass), SceneObject("drawer", pose=pose, geometry=drawer)
+
+
+def slid(out_m: Angles, *, frames_hz: float = 90.0, gap_below_m: float = 0.012, lasts_s: float = 1.2) -> list[Impact]:
+    """The impacts that a hand on the cabinet feels while its drawer is `out_m` far out by time [s]."""
+    cabinet, drawer = chest(gap_below_m)
+    floor = SceneObject("floor", pose=Pose((0.0, -0.05, 0.0)), geometry=Box((4.0, 0.1, 4.0)))
+    scene = SceneSnapshot.build([floor, cabinet, drawer])
+    session = HapticSession(scene, bake(scene))
+    found: dict[Impact, None] = {}
+    for frame in range(-10, round(lasts_s * frames_hz)):
+        pose = Pose((0.0, 0.0, out_m(max(0.0, frame / frames_hz))))
+        session.update({"drawer": pose}, [Touch("left", "wooden cabinet", (0.25, 0.2, 0.0))])
+        session.render_s(1 / frames_hz)
+        found |= dict.fromkeys(session.impacts)
+    return [*found]
+
+
+def closing(speed_m_s: float) -> Angles:
+    """A drawer that is pushed shut from 30 cm."""
+    return lambda time_s: max(0.0, 0.3 - speed_m_s * time_s)
+
+
+@pytest.mark.parametrize("gap_below_m", [0.003, 0.012, 0.05])
+@pytest.mark.parametrize("frames_hz", [30, 60, 90, 144])
+@pytest.mark.parametrize("speed_m_s", [0.5, 1.0, 2.0])
+def test_a_drawer_that_is_pushed_shut_slams_once(speed_m_s: float, frames_hz: float, gap_below_m: float) -> None:
+    (slam,) = slid(closing(speed_m_s), frames_hz=frames_hz, gap_below_m=gap_below_m)
+    assert (slam.object_id, slam.with_object) == ("wooden cabinet", "drawer")
+    assert slam.speed_m_s == pytest.approx(speed_m_s, rel=0.03)
+    assert slam.felt["left"] > 0
+
+
+def test_a_drawer_that_rebounds_slams_once() -> None:
+    assert len(slid(lambda time_s: abs(0.3 - time_s) if time_s < 0.32 else 0.004)) == 1
+
+
+@pytest.mark.parametrize(
+    "out_m",
+    [
+        lambda time_s: 0.3 * (1 - ease(time_s / 0.8)),
+        lambda time_s: 0.3 * ease(time_s / 0.8),
+        lambda time_s: min(0.3, 1.0 * time_s),
+        lambda time_s: max(0.05, 0.3 - 1.0 * time_s),
+        lambda time_s: 0.001 * (1 + math.sin(2 * math.pi * 13 * time_s)),
+    ],
+    ids=["closed by hand", "opened by hand", "stopped when it is open", "let go before it is shut", "rattles"],
+)
+@pytest.mark.parametrize("frames_hz", [45, 90])
+def test_a_drawer_that_meets_nothing_makes_no_impact(out_m: Angles, frames_hz: float) -> None:
+    assert slid(out_m, frames_hz=frames_hz) == []
+
+
+@pytest.mark.parametrize("phase", [0.0, 0.3, 0.6, 0.9])
+def test_a_drawer_slams_when_it_is_shut_where_physics_is_slower_than_frames(phase: float) -> None:
+    """At 50 Hz of 60 every sixth frame has no step, and the others have a step of a fiftieth of a second."""
+    (slam,) = slid(lambda time_s: closing(1.0)((math.floor(50 * time_s + phase) - phase) / 50), frames_hz=60)
+    assert 0.6 < slam.speed_m_s < 1.25
+
+
+def test_an_object_that_is_slid_to_its_place_on_a_table_does_not_slam() -> None:
+    """Nothing encloses it."""
+    table = SceneObject("wooden table", pose=Pose((0.0, 0.375, 0.0)), geometry=Box((1.0, 0.75, 1.0)))
+    box = SceneObject("box", pose=Pose((0.0, 0.8, 0.0)), geometry=Box((0.1, 0.1, 0.1)))
+    scene = SceneSnapshot.build([table, box])
+    session = HapticSession(scene, bake(scene))
+    for frame in range(90):
+        session.update({"box": Pose((closing(1.0)(frame / 90), 0.8, 0.0))})
+        session.render_s(1 / 90)
+    assert session.stats.impacts == 0
+
+
+DRAWER_MJCF = """
+<mujoco><worldbody>
+  <body name="wooden cabinet" pos="0 0 .3">
+    <geom type="box" size=".25 .25 .009" pos="0 0 -.141"/><geom type="box" size=".25 .25 .009" pos="0 0 .141"/>
+    <geom type="box" size=".009 .25 .132" pos="-.241 0 0"/><geom type="box" size=".009 .25 .132" pos=".241 0 0"/>
+    <geom type="box" size=".232 .009 .132" pos="0 .241 0"/>
+  </body>
+  <body name="drawer" pos="0 0 .3">
+    <joint type="slide" axis="0 -1 0" range="0 .35" limited="true"/>
+    <geom type="box" size=".218 .22 .006" pos="0 -.03 -.114"/><geom type="box" size=".006 .22 .068" pos="-.212 -.03 -.05"/>
+    <geom type="box" size=".006 .22 .068" pos=".212 -.03 -.05"/><geom type="box" size=".25 .009 .15" pos="0 -.259 0"/>
+  </body>
+</worldbody><contact><exclude body1="wooden cabinet" body2="drawer"/></contact></mujoco>
+"""
+
+
+@pytest.mark.parametrize("frames_hz", [30, 90])
+def test_a_drawer_slams_at_the_speed_at_which_mujoco_stops_it(frames_hz: int) -> None:
+    mujoco = pytest.importorskip("mujoco")
+    from scene2hap.scene.engines.mujoco import snapshot
+
+    model = mujoco.MjModel.from_xml_string(DRAWER_MJCF)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    scene = snapshot(model, data)
+    session = HapticSession(scene, bake(scene))
+    link = MuJoCoLink(model, data, session)
+    data.qpos[0], data.qvel[0] = 0.3, -1.2
+    found: dict[Impact, None] = {}
+    for frame in range(frames_hz):
+        while data.time < frame / frames_hz:
+            mujoco.mj_step(model, data)
+        link.update([Touch("left", "wooden cabinet", (0.25, 0.0, 0.4))])
+        session.render_s(1 / frames_hz)
+        found |= dict.fromkeys(session.impacts)
+    (slam,) = found
+    assert slam.with_object == "drawer"
+    assert slam.speed_m_s == pytest.approx(1.2, rel=0.06)
