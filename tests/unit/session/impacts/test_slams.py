@@ -1,4 +1,4 @@
-"""Doors and lids that slam against what a hinge holds them on, which the contact at the hinge does not show."""
+"""Doors, lids and drawers that slam, which their contacts do not show."""
 
 from __future__ import annotations
 
@@ -263,9 +263,9 @@ def closing(speed_m_s: float) -> Angles:
     return lambda time_s: max(0.0, 0.3 - speed_m_s * time_s)
 
 
-@pytest.mark.parametrize("gap_below_m", [0.003, 0.012, 0.05])
-@pytest.mark.parametrize("frames_hz", [30, 60, 90, 144])
-@pytest.mark.parametrize("speed_m_s", [0.5, 1.0, 2.0])
+@pytest.mark.parametrize("gap_below_m", [0.003, 0.05])
+@pytest.mark.parametrize("frames_hz", [30, 90, 144])
+@pytest.mark.parametrize("speed_m_s", [0.5, 2.0])
 def test_a_drawer_that_is_pushed_shut_slams_once(speed_m_s: float, frames_hz: float, gap_below_m: float) -> None:
     (slam,) = slid(closing(speed_m_s), frames_hz=frames_hz, gap_below_m=gap_below_m)
     assert (slam.object_id, slam.with_object) == ("wooden cabinet", "drawer")
@@ -321,8 +321,9 @@ DRAWER_MJCF = """
   </body>
   <body name="drawer" pos="0 0 .3">
     <joint type="slide" axis="0 -1 0" range="0 .35" limited="true"/>
-    <geom type="box" size=".218 .22 .006" pos="0 -.03 -.114"/><geom type="box" size=".006 .22 .068" pos="-.212 -.03 -.05"/>
-    <geom type="box" size=".006 .22 .068" pos=".212 -.03 -.05"/><geom type="box" size=".25 .009 .15" pos="0 -.259 0"/>
+    <geom type="box" size=".218 .22 .006" pos="0 -.03 -.114"/><geom type="box" size=".25 .009 .15" pos="0 -.259 0"/>
+    <geom type="box" size=".006 .22 .068" pos="-.212 -.03 -.05"/>
+    <geom type="box" size=".006 .22 .068" pos=".212 -.03 -.05"/>
   </body>
 </worldbody><contact><exclude body1="wooden cabinet" body2="drawer"/></contact></mujoco>
 """
