@@ -7,6 +7,7 @@ from typing import Any, Literal
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
+from scene2hap.common.warning import warn_of
 from scene2hap.engines.link import EngineLink
 from scene2hap.errors import ConfigError
 from scene2hap.scene.engines import mujoco as engine
@@ -14,6 +15,8 @@ from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.session import HapticSession, Touch
 from scene2hap.session.frame import unknown_hand
+
+_MOST_NAMED = 3
 
 
 @clear_calls
@@ -29,7 +32,7 @@ class MuJoCoLink(EngineLink):
         touch; with several touches, the strongest is felt.
     contacts : None finds contacts between objects from geometry; "engine" uses the contacts of the simulation.
     Raises: MissingExtra; SceneError: the session is of another model; ConfigError: no such hand; UnknownObject: no such
-    body.
+    body. Warns: SceneWarning: MuJoCo has no contacts between a hand and objects, since none of them can move by itself.
     """
 
     def __init__(
@@ -55,6 +58,7 @@ class MuJoCoLink(EngineLink):
         for hand in hands or ():
             if hand not in session.hands:
                 raise ConfigError(unknown_hand(hand, session.hands))
+        self._engine.warn_of_fixed_hands(hands or {})
 
     def _step(self) -> engine.ContactPoints | None:
         # As arrays, since a step may have hundreds of contact points.
@@ -84,6 +88,17 @@ class _MuJoCo:
         self._hands = {hand: engine.geoms_below(model, data, body) for hand, body in hands.items()}
         self.reports = has_contacts or bool(hands)
         self.points: engine.ContactPoints | None = None
+
+    def warn_of_fixed_hands(self, bodies: Mapping[str, str]) -> None:
+        for hand, part in self._hands.items():
+            fixed = engine.out_of_reach(self._model, part, self._how["geom_groups"])
+            if fixed:
+                named = ", ".join(map(repr, fixed[:_MOST_NAMED])) + (", ..." if len(fixed) > _MOST_NAMED else "")
+                warn_of(
+                    f"MuJoCo moves neither {bodies[hand]!r} nor {named}, and finds no contacts between such bodies: "
+                    f"hand {hand!r} does not feel them. Weld a free body to {bodies[hand]!r} and name that body as the "
+                    "hand, or give touches to `update`."
+                )
 
     def poses(self) -> PoseTable:
         return engine.poses(self._model, self._data, **self._how)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+import warnings
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -26,6 +27,7 @@ from scene2hap import (
     Touch,
     bake,
 )
+from scene2hap.common.warning import SceneWarning
 from scene2hap.engines import EngineAdapter, EngineLink, MuJoCoLink, Panda3DLink
 from scene2hap.errors import CallError, ConfigError, SceneError, SessionError, UnknownObject
 from scene2hap.testing import check_engine_adapter
@@ -658,3 +660,50 @@ def test_contact_points_of_steps_are_those_of_the_last_step_of_each_pair() -> No
     geoms, points, normals = points_of_steps([step((0, 1, 1.0), (0, 2, 2.0)), step((0, 2, 3.0), (0, 2, 4.0)), step()])
     assert geoms.tolist() == [[0, 1], [0, 2], [0, 2]]
     assert points[:, 0].tolist() == normals[:, 0].tolist() == [1.0, 3.0, 4.0]
+
+
+@pytest.mark.parametrize(
+    ("hand", "pair", "named"),
+    [
+        (
+            '<body name="glove" mocap="true" pos="0 0 .8"><geom size=".02"/></body>',
+            "",
+            "nor 'wooden_table', 'wooden_floor', and",
+        ),
+        (
+            '<body name="glove" mocap="true" pos="0 0 .8"><geom size=".02"/></body>',
+            '<pair geom1="skin" geom2="top"/>',
+            None,
+        ),
+        ('<body name="glove" pos="0 0 .8"><freejoint/><geom size=".02"/></body>', "", None),
+        (
+            '<body name="glove" mocap="true" pos="0 0 .8"><geom size=".02"/>'
+            '<body name="nail"><joint/><geom size=".01"/></body></body>',
+            "",
+            None,
+        ),
+    ],
+    ids=["mocap", "with a pair", "free", "with a joint"],
+)
+def test_hands_that_mujoco_keeps_from_fixed_objects_bring_a_warning(hand: str, pair: str, named: str | None) -> None:
+    """The engine itself has no contact of the hand with the table in the first case."""
+    mujoco = pytest.importorskip("mujoco", reason="needs the extra mujoco")
+    from scene2hap.scene.engines.mujoco import snapshot
+
+    text = MODEL.replace("</worldbody>", f"{hand}</worldbody><contact>{pair}</contact>")
+    text = text.replace('size=".02"', 'name="skin" size=".02"').replace('size="0.6 ', 'name="top" size="0.6 ')
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    data.mocap_pos[:] = (0, 0, 0.73)
+    data.qpos[-7:-4] = (0, 0, 0.73) if "freejoint" in hand else data.qpos[-7:-4]
+    mujoco.mj_forward(model, data)
+    skin, top = (mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, name) for name in ("skin", "top"))
+    meets = any({one.geom1, one.geom2} == {skin, top} for one in data.contact)
+    scene = snapshot(model, data)
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always", SceneWarning)
+        MuJoCoLink(model, data, HapticSession(scene, baked(scene)), hands={"left": "glove"})
+    said = [str(one.message) for one in found if "Weld a free body" in str(one.message)]
+    assert [one for one in said if named is not None and named in one] == said
+    assert bool(said) == (named is not None)
+    assert named is None or not meets

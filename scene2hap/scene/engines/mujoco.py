@@ -187,14 +187,24 @@ def geoms_below(model: Any, data: Any, body: str) -> NDArray[np.bool_]:
     for below in range(named[body] + 1, model.nbody):
         is_below[below] = is_below[model.body_parentid[below]]
     found = is_below[model.geom_bodyid]
-    collides = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
-    collides[np.concatenate((model.pair_geom1, model.pair_geom2)).astype(np.intp)] = True
-    if not (found & collides).any():
+    if not (found & _can_collide(model)).any():
         raise SceneError(
             f"body {body!r} has no geom that collides, nor has any body below it, so it touches nothing. Give one "
             "contype and conaffinity, or name another body."
         )
     return np.append(found, False)
+
+
+def _can_collide(model: Any) -> NDArray[np.bool_]:
+    """Return a mask of the geoms (n_geoms,) that collide with any others."""
+    collides: NDArray[np.bool_] = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
+    collides[_paired(model)] = True
+    return collides
+
+
+def _paired(model: Any) -> NDArray[np.intp]:
+    """Return the geoms that a `<pair>` names."""
+    return np.concatenate((model.pair_geom1, model.pair_geom2)).astype(np.intp)
 
 
 def touched(
@@ -220,6 +230,18 @@ def touched(
     rows = items.row_of_geom(model)[others].tolist()
     places_m = (places[kept] * unit_m).tolist()
     return [(items.ids[row], (x, y, z)) for row, (x, y, z) in zip(rows, places_m, strict=True) if row >= 0]
+
+
+def out_of_reach(model: Any, part: NDArray[np.bool_], geom_groups: Collection[int] | None = None) -> list[str]:
+    """Return the ids of the objects whose contacts with a part, from `geoms_below`, MuJoCo leaves out: neither can move
+    by itself, as a table that is part of the world and a mocap body. Empty if the model has `<pair>`s of the part."""
+    can_move = model.body_dofnum[model.body_weldid[model.geom_bodyid]] > 0
+    if can_move[part[:-1]].any() or part[_paired(model)].any():
+        return []
+    items = _layout(model, geom_groups)
+    rows = items.row_of_geom(model)[:-1]
+    fixed = rows[~can_move & ~part[:-1] & _can_collide(model) & (rows >= 0)]
+    return [items.ids[row] for row in np.unique(fixed).tolist()]
 
 
 def load_mjcf(
