@@ -16,6 +16,7 @@ from scene2hap.haptics import Bands
 from scene2hap.materials import lookup
 from scene2hap.plugins import lacking
 from scene2hap.propagation import MODELS
+from scene2hap.propagation.live import LiveModel
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.protocol import (
     ContactNetwork,
@@ -27,6 +28,7 @@ from scene2hap.propagation.protocol import (
 )
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
+from scene2hap.testing.live_field import Hands, check_live_field
 
 _TURNED = (-0.5, -0.5, -0.5, 0.5)  # turns a plate's normal to y, which is up
 _MIDDLES_M = {
@@ -64,13 +66,15 @@ def check_propagation_model(model: PropagationModel) -> None:
     """Check a model against its protocol: a phone on a table, a fan without contacts, a shelf out of reach.
 
     Networks without sources, without bodies, and queries without points are checked too. Where no contacts lead, a gain
-    must be 0, unless the model declares `follows_poses`.
+    must be 0, unless the model declares `follows_poses`. A live field must answer as a prepared one.
     Raises: AssertionError: names the broken promise.
     """
     problem = lacking(model, MODELS.members)
     assert not problem, problem
     for bands in _BANDS:
         _hold_answers(model, bands)
+        if isinstance(model, LiveModel):
+            _hold_live(model, bands)
         for network, sources in ((_NETWORK, ()), (_EMPTY, (_FAN,)), (_EMPTY, ())):
             _answers(model, _prepared(model, network, sources, bands), "table", _ON_TABLE, len(sources), bands)
 
@@ -115,6 +119,24 @@ def _hold_answers(model: PropagationModel, bands: Bands) -> None:
             assert np.allclose(found, table, rtol=1e-6, atol=1e-12), f"{name}: two threads at once get other answers"
 
 
+def _hold_live(model: PropagationModel, bands: Bands) -> None:
+    assert isinstance(model, LiveModel)
+    sources = (_PHONE, _FAN)
+    hands = [[("phone", _ON_TABLE[0])], [("table", point) for point in _ON_TABLE], [("shelf", _ON_TABLE[0])], []]
+
+    def prepared(network: ContactNetwork, hands: Hands) -> NDArray[np.float64]:
+        field = _prepared(model, network, sources, bands)
+        order = [field.source_ids.index(source.source_id) for source in sources]
+        found = np.zeros((len(hands), len(sources), bands.n_bands))
+        for hand, touched in zip(found, hands, strict=True):
+            for object_id, point in touched:
+                np.maximum(hand, _answers(model, field, object_id, [point], len(sources), bands)[0, order], out=hand)
+        return found
+
+    with _must_not_raise(f"the live field of {type(model).__name__}"):
+        check_live_field(model, _NETWORK, sources, hands, bands, prepared)
+
+
 def _prepared(
     model: PropagationModel, network: ContactNetwork, sources: Sequence[Excitation], bands: Bands
 ) -> PropagationField:
@@ -127,7 +149,7 @@ def _must_not_raise(called: str) -> Iterator[None]:
     """Turn an error of a guest into the promise that it breaks. Our errors pass: a model may refuse a scene."""
     try:
         yield
-    except Scene2HapError:
+    except (Scene2HapError, AssertionError):
         raise
     except Exception as problem:
         key = problem.args[0] if isinstance(problem, KeyError) and problem.args else ""

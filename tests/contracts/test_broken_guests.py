@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from scene2hap import MemorySink
+from scene2hap import ExponentialPlate, MemorySink
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.tactile import CONVERTERS
@@ -143,6 +144,52 @@ MODELS: list[tuple[Any, str]] = [
     (Model(known_alone), "; object 'cup' is in no network; a field must answer there too"),
     (Model(lambda *_: 1 / 0), "at 'table' raised ZeroDivisionError("),
     (FromAToB(lambda found, *_: found), "with a and b of each contact swapped"),
+]
+
+
+class Live(ExponentialPlate):
+    """Its live field is that of the law, of which a test changes one method."""
+
+    def __init__(self, method: str, change: Change) -> None:
+        super().__init__()
+        self._method, self._change = method, change
+
+    def live(self, *given: Any) -> Any:
+        field: Any = super().live(*given)
+        whole = getattr(field, self._method)
+        changed = partial(self._change, whole) if callable(whole) else self._change(whole)
+        object.__setattr__(field, self._method, changed)
+        return field
+
+
+class Stale(Live):
+    def __init__(self) -> None:
+        super().__init__("strongest", lambda whole, hands: whole(hands))
+        self._change = lambda whole, hands: self._known.setdefault(repr(hands), whole(hands))
+        self._known: dict[str, Any] = {}
+
+    def live(self, *given: Any) -> Any:
+        self._known = {}
+        return super().live(*given)
+
+
+MODELS += [
+    (Live("source_ids", lambda ids: ids[:1]), "the live field of Live has the sources"),
+    (Live("strongest", lambda whole, hands: whole(hands)[0]), "the live field of Live has shape"),
+    (Live("strongest", lambda whole, hands: whole(hands).astype(np.float32)), "is float32; it must be float64"),
+    (Live("strongest", lambda whole, hands: whole(hands) * np.nan), "the live field of Live holds a value that is not"),
+    (Live("most", lambda most: 0.5 * most), "more than its `most`, 0.5"),
+    (Live("strongest", lambda whole, hands: 0.5 * whole(hands)), "a source is felt on itself by 0.5; it must be 1"),
+    (Live("strongest", lambda whole, hands: np.maximum(whole(hands), 1e-9)), "a hand that touches nothing feels 1e-09"),
+    (Live("strongest", lambda whole, hands: whole(hands) ** 1.1), "differs from the prepared field, by up to"),
+    (Live("strongest", lambda whole, hands: whole([hands[0] for _ in hands])), "a hand that touches nothing feels"),
+    (Stale(), "the live field of Stale does not follow contacts that end"),
+    (Live("at", lambda whole, costs, columns=None: whole(costs)), "at(costs, columns) differs from at(costs)"),
+    (
+        Live("path_costs", lambda whole, hands, limits=None, *_: whole(hands, limits and [0.0] * 2)),
+        "up to a limit differ",
+    ),
+    (Live("from_point", lambda whole, *given: 0.9 * whole(*given)), "from_point of the live field of Live has 0.9"),
 ]
 
 
