@@ -14,7 +14,7 @@ Doors and drawers meet their cabinet where no contact shows it (`slams`).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import pairwise
 from types import MappingProxyType
@@ -228,23 +228,41 @@ class Landings:
 
     def _landing(self, object_id: str, track: MotionTrack, time_s: float) -> list[Landing]:
         """The landing on the touched object that was approached the fastest, of equal ones the first by id; empty if
-        there is none."""
+        there is none. A drawer is one only if no contact shows what it met."""
         runs = track.run(), track.run(1)  # the two may have met early in the last step
+        met, between = self._met(object_id), (runs[1][0][0], runs[0][-1][0])
+        found = self._fastest(object_id, track, runs, time_s, self._at_contacts(object_id, track, met, between))
+        if found is None:
+            found = self._fastest(object_id, track, runs, time_s, self._in_holders(object_id, track, between))
+        if found is None:
+            return []
+        return [found] if LEAST_SPEED_M_S <= found.speed_m_s <= FASTEST_M_S else []
+
+    def _fastest(
+        self,
+        object_id: str,
+        track: MotionTrack,
+        runs: tuple[Sequence[tuple[int, float]], Sequence[tuple[int, float]]],
+        time_s: float,
+        approaches: Iterable[_Approach],
+    ) -> Landing | None:
+        """The fastest of several approaches at which an object met another."""
         steps = sorted({*runs[0], *runs[1]})
         (first, _), (before, before_s), (last, end_s) = steps[0], steps[-2], steps[-1]
-        best, most_m, speed, now = None, LEAST_TRAVEL_M, 0.0, self._n_updates
+        best, most_m, now = None, LEAST_TRAVEL_M, self._n_updates
         # The step after a long frame is short, without being slow. The ratio is unknown if the clock stands still.
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
-        beside, met = self._graph.beside.get(object_id, _NOTHING), self._met(object_id)
-        for one in self._approaches(object_id, track, met, (first, last)):
+        beside = self._graph.beside.get(object_id, _NOTHING)
+        has_just_stopped = self._graph.pose(object_id) == track.pose and track.has_stopped(now)
+        for one in approaches:
             other, point, came, normal = one[:4]
             if best is not None and not (other in beside and one.is_contact):
                 continue
             closing = dot(came, normal)
             if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
-                is_there = one.is_seen and self._is_at(object_id, track, point, normal)
-                if not is_there and self._has_just_stopped(object_id, track):
+                # Physics may be slower than the frames, and miss one: has it stopped in mid air?
+                if has_just_stopped and not (one.is_seen and self._is_at(object_id, track, point, normal)):
                     continue
                 step = dot(self._nearing(object_id, other, point, before, last), normal)
                 onward = dot(self._nearing(object_id, other, point, last, now), normal)
@@ -255,26 +273,23 @@ class Landings:
                 if not self._stops_suddenly(object_id, other, point, normal, [*steps, (now, time_s)]):
                     continue
                 if one.meets is None or one.meets():
-                    best, most_m = (other, point), closing
                     speed = max(self._speed(object_id, other, point, normal, run) for run in runs)
-        if best is None:
-            return []
-        return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
+                    best, most_m = Landing(object_id, other, point, speed), closing
+        return best
 
-    def _approaches(
+    def _at_contacts(
         self, object_id: str, track: MotionTrack, met: Mapping[str, Junction], between: tuple[int, int]
     ) -> Iterator[_Approach]:
-        """Where an object may have met others.
+        """Approaches at the present and former contacts of an object, and at its edge if a hinge holds it.
 
         Present contacts come first, a contact at a hinge last among these, since a contact elsewhere shows where the
-        two objects meet. Drawers come last. Sorted, since the graph's order depends on the hashes of ids, which differ
-        in each run of Python.
+        two objects meet. Sorted, since the graph's order depends on the hashes of ids, which differ in each run of
+        Python.
         """
         beside, pose = self._graph.beside.get(object_id, _NOTHING), self._graph.pose(object_id)
         slam = self._slam(object_id, partial(self._way, track))
         holder = None if slam is None else slam.holder
-        others = sorted(met, key=lambda x: (x not in beside, x == holder, x))
-        for other in others:
+        for other in sorted(met, key=lambda x: (x not in beside, x == holder, x)):
             meets: Callable[[], bool] | None = None
             if slam is not None and other == holder:
                 point = in_world(slam.edge_m, pose)
@@ -285,19 +300,18 @@ class Landings:
                 point = _middle(side)
                 came = self._nearing(object_id, other, point, *between)
                 yield _Approach(other, point, came, self._normal(object_id, other, point, side, between[0]), meets)
-        for other in others:
-            if other != holder and other in beside:
-                point = _middle(met[other])
-                came = self._nearing(object_id, other, point, *between)
-                closed = partial(self._is_closed, object_id, other, self._way(track, other))
-                yield _Approach(other, point, came, _direction(came), closed, is_contact=False, is_seen=False)
 
-    def _has_just_stopped(self, object_id: str, track: MotionTrack) -> bool:
-        """Whether an object has no step in this update: physics may be slower than the frames, and miss one."""
-        return self._graph.pose(object_id) == track.pose and track.has_stopped(self._n_updates)
+    def _in_holders(self, object_id: str, track: MotionTrack, between: tuple[int, int]) -> Iterator[_Approach]:
+        """Approaches of a drawer to what encloses it."""
+        beside = self._graph.beside.get(object_id, _NOTHING)
+        for other in sorted(beside):
+            point = _middle(beside[other])
+            came = self._nearing(object_id, other, point, *between)
+            closed = partial(self._is_closed, object_id, other, self._way(track, other))
+            yield _Approach(other, point, came, _direction(came), closed, is_contact=False, is_seen=False)
 
     def _is_at(self, object_id: str, track: MotionTrack, point_m: Vector, normal: Vector) -> bool:
-        """Whether an object reaches a contact, and has not stopped in mid air.
+        """Whether an object reaches a contact.
 
         The point of a contact is half way between the two surfaces. The box around the object reaches at least as far
         as its own.
