@@ -84,8 +84,9 @@ class HapticBundle(BundleContents):
         inferred silent, need `rebake(bundle)`, which makes the loops. The loops of a locked object stay unchanged, byte
         for byte; a correction that would change them is rejected.
         Raises: UnknownObject; BundleError: a field out of bounds, an unknown state of the object, or a change of the
-        loops of a locked object; UnknownMaterial; AudioError: a clip shorter than 0.1 s, or silent. Warns: SceneWarning: a correction of vibration for an object that
-        does not vibrate, a level that looks like a percentage, or a mass that looks like grams.
+        loops of a locked object; UnknownMaterial; AudioError: a clip that cannot be read or lasts less than 0.1 s.
+        Warns: SceneWarning: a correction of vibration for an object that does not vibrate, a level that looks like a
+        percentage, or a mass that looks like grams.
         """
         self.snapshot.object(object_id)
         changes = {
