@@ -112,8 +112,8 @@ def export_clip(
         clip = read_haptic_clip(path)
         channels = {"": Channel(np.clip(synthesize(clip), -1.0, 1.0), RATE_HZ, clip=clip)}
     else:
-        samples, rate = read_channels(path)
-        samples = _without_offset(samples.astype(np.float64), rate)
+        read, rate = read_channels(path)
+        samples = _without_offset(read.astype(np.float64), rate)
         samples = samples / max(1.0, float(np.abs(samples).max()))  # one factor: clipping would distort
         names = _CHANNEL_NAMES.get(samples.shape[1], [f"channel_{i + 1}" for i in range(samples.shape[1])])
         channels = {name: Channel(one, rate) for name, one in zip(names, samples.T, strict=True)}

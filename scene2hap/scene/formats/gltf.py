@@ -56,7 +56,7 @@ def read_gltf(path: Path, assets_root: Path) -> AuthoredScene:
     if reader.hidden:
         shown = ", ".join(reader.hidden[:_SHOWN]) + (", ..." if len(reader.hidden) > _SHOWN else "")
         warn_of(
-            f"{path.name}: left out {counted(len(reader.hidden), 'node')} of scale 0, which viewers do not show: {shown}."
+            f"{path.name}: left out {counted(len(reader.hidden), 'node')} of scale 0, which no viewer shows: {shown}."
             " Scale what should be felt to its size."
         )
     return AuthoredScene(roots, left_out=textures.left_out)

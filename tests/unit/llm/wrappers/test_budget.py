@@ -84,7 +84,9 @@ def test_a_limit_on_cost_warns_of_an_unknown_price_before_the_first_call() -> No
     class Deployment(FunctionBackend):
         """A gateway calls a model by a name of its own."""
 
-        identity: Any = {"model": "my-deployment", "base_url": "https://gateway.example"}
+        @property
+        def identity(self) -> dict[str, Any]:
+            return {"model": "my-deployment", "base_url": "https://gateway.example"}
 
     inner = Deployment(lambda _: LLMReply("{}", "gpt-4o-2024-08-06", usage=USAGE))
     backend = BudgetBackend(inner, max_cost=1.0, prices={"gpt-4o": (2.0, 5.0)})
