@@ -296,7 +296,7 @@ def test_picture_shows_the_threshold_of_touch(tmp_path: Path) -> None:
     assert -(row + 0.5 - top) / 102 * 80 == pytest.approx(float(threshold_db(150.0)), abs=1.5)
     # The frequency beside its line has an outline, which makes it legible on the bright band that it names.
     beside = pixels[62 + 396 : 62 + 396 + 240, 96:150]
-    assert (np.abs(beside - [34, 63, 79]).sum(axis=2) < 20).sum() > 100
+    assert (np.abs(beside - [34, 63, 79]).sum(axis=2) < 20).sum() > 20
     brightest = [pixels[62 + lane : 62 + lane + 240, 200:960].sum(axis=2).max() for lane in (0, 396)]
     louder = 0 if made.peak_in > made.peak_out else 1
     assert brightest[louder] > brightest[1 - louder]
