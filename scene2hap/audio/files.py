@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import io
+import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -234,15 +235,32 @@ def encoded(
     subtype: PcmSubtype = "PCM_24",
     container: str = "WAV",
     path: Path = Path("samples"),
+    *,
+    is_loop: bool = False,
 ) -> bytes:
-    """Return the content of a sound file, see `write_wav`; `path` is named in errors. Raises: AudioError."""
+    """Return the content of a sound file, see `write_wav`; `path` is named in errors.
+
+    `is_loop` : a WAV says that it is repeated as a whole, for samplers and game audio tools. Raises: AudioError.
+    """
     rate = int(checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=1, error=AudioError))
     if subtype not in _BITS:
         raise AudioError(f"subtype is {subtype!r}; it must be one of {', '.join(_BITS)}.")
     content = io.BytesIO()
     steps = _quantised(path, samples, _BITS[subtype])
     soundfile.write(content, steps, rate, subtype=subtype, format=container)
-    return content.getvalue()
+    return _with_loop(content.getvalue(), len(steps), rate) if is_loop and container == "WAV" else content.getvalue()
+
+
+def _with_loop(wav: bytes, n_samples: int, rate_hz: int) -> bytes:
+    """Append a chunk "smpl" with one loop: all samples, forwards, for ever.
+
+    Source: Microsoft and IBM, "Multimedia Programming Interface and Data Specifications 1.0", update of 1994.
+    """
+    middle_c, forwards, for_ever = 60, 0, 0
+    sampler = 0, 0, round(1e9 / rate_hz), middle_c, 0, 0, 0, 1, 0  # one loop
+    loop = 0, forwards, 0, n_samples - 1, 0, for_ever
+    body = wav[8:] + bytes(len(wav) % 2) + struct.pack("<4sI15I", b"smpl", 60, *sampler, *loop)
+    return b"RIFF" + len(body).to_bytes(4, "little") + body
 
 
 def as_stored(clip: AudioClip) -> AudioClip:

@@ -127,7 +127,7 @@ def most_felt_hz(samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorPr
     It is not always the strongest: at 35 Hz touch needs six times the amplitude that it needs at 84 Hz.
     Raises: AudioError: as `analysis.dominant_frequency_hz`.
     """
-    return dominant_frequency_hz(samples, sample_rate_hz, weight_db=lambda f: _over_threshold_db(f, actuator))
+    return dominant_frequency_hz(samples, sample_rate_hz, weight_db=lambda f: over_threshold_db(f, actuator))
 
 
 def felt_level_of_spectrum_db(
@@ -144,10 +144,10 @@ def _felt(
     inside = (f >= TACTILE_RANGE_HZ[0]) & (f <= min(TACTILE_RANGE_HZ[1], 0.5 * sample_rate_hz))
     f = f[inside]
     amplitude = 2.0 * np.abs(spectrum[inside]) / n_samples
-    return f, amplitude**2 * 10 ** (_over_threshold_db(f, actuator) / 10)
+    return f, amplitude**2 * 10 ** (over_threshold_db(f, actuator) / 10)
 
 
-def _over_threshold_db(f: NDArray[np.float64], actuator: ActuatorProfile | None) -> NDArray[np.float64]:
+def over_threshold_db(f: NDArray[np.float64], actuator: ActuatorProfile | None = None) -> NDArray[np.float64]:
     """Return the level at which full scale is felt at frequencies (n,) [dB over the threshold of touch]."""
     return (response_db(actuator, f) if actuator else 0.0) - threshold_db(f)
 

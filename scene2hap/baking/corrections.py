@@ -10,8 +10,9 @@ from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.sound import Progress, no_progress
 from scene2hap.bundle import BundleWarning, HapticBundle, Override
 from scene2hap.common import checks
+from scene2hap.common.counted import counted
 from scene2hap.common.warning import warn_of
-from scene2hap.errors import ConfigError
+from scene2hap.errors import BackendError, ConfigError
 from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
 from scene2hap.llm.chain import Inference, infer_scene
 from scene2hap.llm.chain.questions import Slots
@@ -69,6 +70,7 @@ async def infer_corrected(
 ) -> Inference:
     """Infer a scene with the names and vibration of the overrides. See `infer_scene`.
 
+    An error that stops it has a note on the answers that the cache keeps (`__notes__`), since the same bake continues.
     Warns: BundleWarning: a name that a person gave is unknown.
     """
     tell = progress or no_progress
@@ -76,17 +78,25 @@ async def infer_corrected(
     if names:
         renamed = (replace(item, name=names.get(item.id, item.name)) for item in scene.objects)
         scene = replace(scene, objects=tuple(renamed))
-    inference = await infer_scene(
-        scene,
-        backend,
-        user_prompt=user_prompt,
-        config=config,
-        progress=lambda what, done, total: tell("inference", what + _cache_hits(backend), done, total),
-        only=only,
-        scene_category=scene_category,
-        object_prompts={key: _VIBRATES for key, override in overrides.items() if override.vibrates},
-        slots=slots,
-    )
+    try:
+        inference = await infer_scene(
+            scene,
+            backend,
+            user_prompt=user_prompt,
+            config=config,
+            progress=lambda what, done, total: tell("inference", what + _cache_hits(backend), done, total),
+            only=only,
+            scene_category=scene_category,
+            object_prompts={key: _VIBRATES for key, override in overrides.items() if override.vibrates},
+            slots=slots,
+        )
+    except BackendError as cause:
+        cached = reports(backend).get("CacheBackend", {})
+        if n_kept := cached.get("stored", 0) + cached.get("hits", 0):
+            cause.add_note(
+                f"The cache keeps {counted(n_kept, 'answer')} so far; the same command continues from there."
+            )
+        raise
     objects = {
         key: _note_name(key, haptics, names[key]) if key in names else haptics
         for key, haptics in inference.objects.items()

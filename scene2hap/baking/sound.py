@@ -36,6 +36,7 @@ from scene2hap.baking.recorded_times import NO_RUNS, Runs, runs_of, shown_runs
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.common.blas_threads import one_blas_thread
 from scene2hap.common.warning import warn_of
+from scene2hap.errors import AudioError
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics, SourceState, VibrationDescription
 
 Progress = Callable[[str, str, int, int], None]
@@ -292,7 +293,10 @@ class _Maker:
             unchanged = dict(part.earlier.fingerprint) == fingerprint and runs_of(part.earlier) == part.runs
             return part.earlier if unchanged else _as_of(part, part.earlier, fingerprint), _UNCHANGED
         if key not in self._made:
-            made = felt_loop(clip, self._config.tactile, plan)
+            try:
+                made = felt_loop(clip, self._config.tactile, plan)
+            except AudioError as cause:
+                raise type(cause)(f"{part.object_id!r}, state {part.state.name!r}: {cause}") from cause
             # Rounded as in the folder, so that a bundle equals the one that is read back, and plays on over it.
             self._made[key] = replace(made, audible=as_stored(made.audible), tactile=as_stored(made.tactile))
         # A person's own clip is stored with the override. Without that override, another sound must be chosen.

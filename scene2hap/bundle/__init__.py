@@ -5,6 +5,7 @@ from scene2hap.bundle.differences import Difference, differences
 from scene2hap.bundle.folder import read_overrides, write_both
 from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
 from scene2hap.bundle.haptic_bundle import HapticBundle
+from scene2hap.bundle.history import pop, step_beside, steps_beside
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import Override
 from scene2hap.bundle.sounds import file_stems
@@ -17,8 +18,11 @@ __all__ = [
     "Override",
     "differences",
     "file_stems",
+    "pop",
     "read_overrides",
     "require_replaceable",
     "save_stamp",
+    "step_beside",
+    "steps_beside",
     "write_both",
 ]

@@ -17,6 +17,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import stat
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, fields, replace
@@ -32,6 +33,7 @@ from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.corrections import FORMAT as CORRECTIONS_FORMAT
 from scene2hap.bundle.files import inside, own_file, read_bytes, read_json
 from scene2hap.bundle.folder_replacement import recover, replaced
+from scene2hap.bundle.history import Kind, push, step_beside, steps_beside
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.manifest import FORMAT, MANIFEST, VERSION, read_manifest, require_folder
 from scene2hap.bundle.override import Override
@@ -70,21 +72,25 @@ def write_bundle(bundle: BundleContents, target: Path, since: Stamp | None = Non
 
 
 def write_both(
-    bundle: BundleContents, target: Path, old: BundleContents, kept: Path, since: Stamp | None = None
+    bundle: BundleContents, target: Path, old: BundleContents, kind: Kind, since: Stamp | None = None
 ) -> Path:
-    """Write a bundle, and the one that it replaces into the folder `kept`: both or none. Otherwise as `write_bundle`.
+    """Write a bundle, and the one that it replaces as a step of its history: both or none. Otherwise as `write_bundle`.
 
-    Both are written before either replaces a folder, so that a full disk or an early end changes nothing.
+    Both are written before either replaces a folder, so that a full disk or an early end changes nothing. Steps share
+    equal sounds and meshes by hard links with one another, and not with the bundle, whose files people edit.
     """
+    kept = step_beside(target, kind)
+    shared = [*steps_beside(target, "before"), *steps_beside(target, "after")][:1]
     try:
-        with replaced(kept) as draft:
-            _write(old, draft)
+        with replaced(kept, retire=push) as draft:
+            _write(old, draft, *shared)
             return write_bundle(bundle, target, since)
     except OSError as cause:
         raise BundleError(unwritable(kept, cause)) from cause
 
 
-def _write(bundle: BundleContents, folder: Path) -> None:
+def _write(bundle: BundleContents, folder: Path, like: Path | None = None) -> None:
+    """Write all files. Sounds and meshes that the folder `like` has too become hard links."""
     (folder / "meshes").mkdir()
     (folder / "sounds").mkdir()
     written: list[str] = []
@@ -96,11 +102,13 @@ def _write(bundle: BundleContents, folder: Path) -> None:
         put_bytes(name, f"{text}\n".encode())
 
     def put_bytes(name: str, content: bytes) -> None:
+        written.append(name)
+        if like is not None and "/" in name and _linked(like / name, folder / name, content):
+            return
         with (folder / name).open("wb") as file:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
-        written.append(name)
 
     scene = scene_json.to_document(bundle.snapshot)
     shared: set[str] = set()
@@ -129,6 +137,17 @@ def _write(bundle: BundleContents, folder: Path) -> None:
             "files": written,
         },
     )
+
+
+def _linked(existing: Path, new: Path, content: bytes) -> bool:
+    """Make `new` a hard link to an existing file of this content. Returns False if there is none, or no links."""
+    try:
+        if not stat.S_ISREG(existing.lstat().st_mode) or existing.read_bytes() != content:
+            return False
+        os.link(existing, new)
+    except OSError:
+        return False
+    return True
 
 
 def read_bundle(folder: Path) -> BundleContents:

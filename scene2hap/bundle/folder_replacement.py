@@ -20,7 +20,7 @@ import re
 import shutil
 import time
 import uuid
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
@@ -86,11 +86,14 @@ def save_stamp(target: Path) -> Stamp | None:
 
 
 @contextmanager
-def replaced(target: Path, since: Stamp | None = None) -> Iterator[Path]:
+def replaced(
+    target: Path, since: Stamp | None = None, retire: Callable[[Path, Path], None] | None = None
+) -> Iterator[Path]:
     """Provide a folder to write to. It replaces `target` if the block succeeds, else it is removed.
 
     Foreign files in the replaced folder are kept. `since` : the target is replaced only if this is still its
-    `save_stamp`; None to replace it in any case.
+    `save_stamp`; None to replace it in any case. `retire` : moves or removes the replaced folder, given its path now
+    and the target; None to remove it.
     Raises: BundleError: as `require_replaceable`; BundleChanged: another process has saved a bundle there; OSError: a
     folder cannot be made or moved.
     Warns: BundleWarning: an earlier save was completed, or the old folder cannot be removed.
@@ -104,7 +107,7 @@ def replaced(target: Path, since: Stamp | None = None) -> Iterator[Path]:
         draft = _new_draft(place, held)
         try:
             yield draft
-            _put(draft, place, target, held, since)
+            _put(draft, place, target, held, since, retire)
         finally:
             # Keep the draft if the target is missing: the next load moves it there.
             if _is_draft(draft) and not os.path.lexists(draft.with_suffix(".old")):
@@ -142,7 +145,14 @@ def recover(target: Path) -> None:
         return
 
 
-def _put(draft: Path, place: Path, target: Path, held: ExitStack, since: Stamp | None) -> None:
+def _put(
+    draft: Path,
+    place: Path,
+    target: Path,
+    held: ExitStack,
+    since: Stamp | None,
+    retire: Callable[[Path, Path], None] | None,
+) -> None:
     os.chmod(draft, 0o755)  # the draft was made private, but a bundle is as readable as any folder
     while True:
         if not os.path.lexists(place):
@@ -164,9 +174,11 @@ def _put(draft: Path, place: Path, target: Path, held: ExitStack, since: Stamp |
             old = draft if exchange(draft, place) else _move_in(draft, place)
             try:
                 os.chmod(old, 0o700)  # it may be write-protected
-                discard(old, place)
+                (retire or discard)(old, place)
             except (OSError, BundleError) as cause:
-                warning = f"{target} is written, but {old}, which it replaces, cannot be removed: {reason_of(cause)}"
+                warning = (
+                    f"{target} is written, but {old}, which it replaces, cannot be moved or removed: {reason_of(cause)}"
+                )
                 warn_of(warning, BundleWarning)
         return
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, overload
 
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.gain_warning import warn_if_percent
+from scene2hap.audio.loops import MIN_CLIP_S
 from scene2hap.bundle.checking import require_plausible
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.corrections import read_corrections
@@ -21,12 +23,21 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
 from scene2hap.common.counted import counted
 from scene2hap.common.warning import warn_of
-from scene2hap.errors import BundleError
+from scene2hap.errors import AudioError, BundleError, MaterialError, SceneError
 from scene2hap.materials import Material
 from scene2hap.scene.plausibility.check import too_heavy
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
+
+
+@contextmanager
+def _named(place: object) -> Iterator[None]:
+    """Put the name of an object or a file before the message of an error."""
+    try:
+        yield
+    except (AudioError, BundleError, MaterialError, SceneError) as cause:
+        raise type(cause)(f"{checks.shown(place) if isinstance(place, str) else place}: {cause}") from cause
 
 
 _OF_SOURCES = ("clip", "gain_db", "intensity", "pitch_hz", "start_up_s", "wind_down_s")
@@ -73,8 +84,9 @@ class HapticBundle(BundleContents):
         inferred silent, need `rebake(bundle)`, which makes the loops. The loops of a locked object stay unchanged, byte
         for byte; a correction that would change them is rejected.
         Raises: UnknownObject; BundleError: a field out of bounds, an unknown state of the object, or a change of the
-        loops of a locked object; UnknownMaterial. Warns: SceneWarning: a correction of vibration for an object that
-        does not vibrate, a level that looks like a percentage, or a mass that looks like grams.
+        loops of a locked object; UnknownMaterial; AudioError: a clip that cannot be read or lasts less than 0.1 s.
+        Warns: SceneWarning: a correction of vibration for an object that does not vibrate, a level that looks like a
+        percentage, or a mass that looks like grams.
         """
         self.snapshot.object(object_id)
         changes = {
@@ -96,7 +108,14 @@ class HapticBundle(BundleContents):
         }
         wish = self.overrides.get(object_id, Override())
         self._require_unlocked(object_id, wish, changes)
-        wish = wish.changed(changes)
+        with _named(object_id):
+            wish = wish.changed(changes)
+            if clip is not None and wish.clip is not None and wish.clip.duration_s < MIN_CLIP_S:
+                sound = clip if isinstance(clip, str | os.PathLike) else repr(wish.clip.credit.title)
+                raise AudioError(
+                    f"the sound {sound} lasts {wish.clip.duration_s:.3g} s; it must last at least {MIN_CLIP_S:g} s. "
+                    "Record a longer one, or repeat it in an audio editor."
+                )
         named = {name for field in BY_STATE if changes[field] is not None for name in getattr(wish, field)}
         self._require_states(object_id, [*sorted(named - {ANY_STATE}), *([] if state is None else [state])])
         if pitch_hz is not None:
@@ -120,9 +139,10 @@ class HapticBundle(BundleContents):
         Corrections of vibration, intensity and pitch need `rebake`. Raises: BundleError: not a file of corrections; and
         as `override`.
         """
-        bundle = self
-        for object_id, fields in read_corrections(checks.path("file", file, error=BundleError)).items():
-            bundle = bundle.override(object_id, **fields)
+        bundle, path = self, checks.path("file", file, error=BundleError)
+        for object_id, fields in read_corrections(path).items():
+            with _named(path):
+                bundle = bundle.override(object_id, **fields)
         return bundle
 
     def with_overrides(self) -> Self:

@@ -30,7 +30,8 @@ MAKES_LOOPS = frozenset({"name", "vibrates", "clip", "keep", "intensity", "pitch
 _OF_STATES = ("intensity", "start_up_s", "wind_down_s")
 """Fields with a number for each state that replace a field of `SourceState`."""
 
-_MOST_GAIN_DB = 60.0
+_LEAST_GAIN_DB, _MOST_GAIN_DB = -120.0, 60.0
+"""Bounds of a level [dB]; the lower one is that of 20 bits (assumed: whoever wants less wants silence)."""
 _LONGEST_NAME = 200
 """Most characters of a name (assumed: three times the longest name that a designer gives; a model reads it)."""
 _BOUNDS: Mapping[str, Mapping[str, Any]] = {
@@ -50,7 +51,7 @@ class Override:
     """A person's correction of one object. A field of None keeps the inferred value.
 
     vibrates : True if the object vibrates by itself.
-    gain_db : its level at the hand, relative to the inferred one [dB].
+    gain_db : its level at the hand, relative to the inferred one, -120..60 [dB].
     mass_kg : mass of the whole object [kg].
     feet : the material of its feet, or a name in the table.
     name : what it is, such as "washing machine". Inference reads this instead of the authored name.
@@ -99,6 +100,8 @@ class Override:
             )
         if self.gain_db is not None:
             gain = checks.number("gain_db", self.gain_db, "dB", at_most=_MOST_GAIN_DB, error=BundleError)
+            hint = "For silence mute it: muted=True, or `scene2hap edit BUNDLE mute ID`."
+            checks.number("gain_db", gain, "dB", at_least=_LEAST_GAIN_DB, error=BundleError, hint=hint)
             object.__setattr__(self, "gain_db", gain)
         if self.mass_kg is not None:
             object.__setattr__(self, "mass_kg", checked_mass_kg(self.mass_kg, BundleError))

@@ -135,5 +135,5 @@ def _write(put: Callable[[str, bytes], None], stems: list[str], kind: str, clip:
         put(name, encoded(clip.samples, clip.sample_rate_hz, container="FLAC", path=Path(name)))
     else:
         name = f"sounds/{shared}.{kind}.wav"
-        put(name, encoded(clip.samples, clip.sample_rate_hz, path=Path(name)))
+        put(name, encoded(clip.samples, clip.sample_rate_hz, path=Path(name), is_loop=kind != "source"))
     return name

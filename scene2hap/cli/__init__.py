@@ -84,7 +84,7 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
             warnings.simplefilter("once")
             outcome = arguments.run(arguments, console)
     except Scene2HapError as error:
-        console.fail(str(error))
+        console.fail(" ".join([str(error), *getattr(error, "__notes__", ())]))
         return 1
     except KeyboardInterrupt:
         console.fail("interrupted; no file was left incomplete.")

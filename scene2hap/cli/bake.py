@@ -17,10 +17,10 @@ from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
 from scene2hap.baking.corrections import bundle_with_locked
-from scene2hap.bundle import HapticBundle, differences, read_overrides, require_replaceable, write_both
+from scene2hap.bundle import HapticBundle, read_overrides, require_replaceable, step_beside
 from scene2hap.bundle.account import write_account
 from scene2hap.cli.console import Console
-from scene2hap.cli.edit import kept_before, wishes
+from scene2hap.cli.edit import is_other, require_steps, write_edited
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
 from scene2hap.errors import BundleError, ConfigError
@@ -110,7 +110,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     require_replaceable(target)  # check before the model costs money
     before = _readable(target)
     if before is not None:
-        require_replaceable(kept_before(str(target)))
+        require_steps(target)
     accounts: list[InferenceReport] = []
     with console.progress() as tell:
         tell("reading", arguments.scene, 0, 1)
@@ -129,8 +129,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             overrides=overrides,
             earlier=bundle_with_locked(target, overrides),
         )
-    kept = kept_before(str(target)) if before is not None and _is_other(before, bundle) else None
-    folder = bundle.save(target) if before is None or kept is None else write_both(bundle, target, before, kept)
+    kept = before is not None and is_other(before, bundle)
+    folder = write_edited(bundle, target, before, console) if before is not None and kept else bundle.save(target)
     try:
         write_account(folder, {**accounts[0].as_json(), "cost_usd": accounts[0].cost_usd(price_list(config.prices))})
     except BundleError as problem:  # the bundle is whole without its account
@@ -138,8 +138,10 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     show_bundle(console, bundle)
     show_report(console, accounts[0], config.prices)
     console.say(f"wrote {folder}")
-    if kept is not None:
-        console.say(f"the bundle before is in {kept}; `scene2hap edit {folder} undo` restores it")
+    if kept:
+        console.say(
+            f"the bundle before is in {step_beside(folder, 'before')}; `scene2hap edit {folder} undo` restores it"
+        )
     return {"bundle": str(folder), **bundle_outcome(bundle), "inference": accounts[0].as_json()}
 
 
@@ -151,11 +153,6 @@ def _readable(folder: Path) -> HapticBundle | None:
             return HapticBundle.load(folder)
     except BundleError:
         return None
-
-
-def _is_other(before: HapticBundle, after: HapticBundle) -> bool:
-    """Return True if a bake has changed something, so that `edit undo` has something to restore."""
-    return before.objects != after.objects or bool(differences(before, after)) or wishes(before) != wishes(after)
 
 
 def bake_settings(arguments: argparse.Namespace) -> dict[str, Any]:

@@ -108,7 +108,7 @@ def _show(console: Console, made: list[Conversion]) -> None:
         f"{counted(len(made), 'file')}, {total:.1f} s of sound",
         (
             *("file", ">duration s", ">peak before dB", ">peak after dB", ">felt dB"),
-            *(">strongest before Hz", ">strongest after Hz", ">times real time"),
+            *(">strongest before Hz", ">most felt after Hz", ">times real time"),
         ),
         (
             (

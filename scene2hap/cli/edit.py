@@ -21,6 +21,7 @@ scene2hap edit kitchen.bundle lock fan
 scene2hap edit kitchen.bundle apply corrections.json
 scene2hap edit kitchen.bundle rebake --actuator lra
 scene2hap edit kitchen.bundle undo
+scene2hap edit kitchen.bundle redo
 scene2hap edit kitchen.bundle diff other.bundle
 
 A named object, and one that is made to vibrate, is inferred again by the lexicon, or by the model of `--llm`. A bundle
@@ -40,13 +41,24 @@ from typing import Any
 
 from scene2hap.baking import BakeConfig, rebake
 from scene2hap.baking.sound import Remade
-from scene2hap.bundle import HapticBundle, Override, differences, require_replaceable, save_stamp, write_both
+from scene2hap.bundle import (
+    HapticBundle,
+    Override,
+    differences,
+    pop,
+    require_replaceable,
+    save_stamp,
+    step_beside,
+    steps_beside,
+    write_both,
+)
+from scene2hap.bundle.history import MOST_STEPS, Kind
 from scene2hap.cli.console import Console, Tell
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import show_report
 from scene2hap.common.counted import counted
-from scene2hap.common.file_stamp import file_stamp
-from scene2hap.errors import BundleChanged, BundleError, Scene2HapError
+from scene2hap.common.file_stamp import Stamp, file_stamp
+from scene2hap.errors import BundleChanged, BundleError, Scene2HapError, reason_of
 from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.wrappers import is_remote
 
@@ -87,6 +99,9 @@ class Remaking:
     def _note_loops(self, remade: Remade) -> None:
         self.remade = {key: {state: list(why) for state, why in states.items()} for key, states in remade.items()}
 
+
+_STEPS: dict[str, tuple[Kind, Kind]] = {"undo": ("before", "after"), "redo": ("after", "before")}
+"""Verbs that load a step of the history: from where, and to where the present bundle goes."""
 
 Changed = Callable[[HapticBundle, Remaking], HapticBundle]
 
@@ -142,7 +157,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         verb(name, text, _overridden).set_defaults(**changes)
     vibrate = verb("vibrate", "mark an object as vibrating, and make its loops", _remade)
     vibrate.set_defaults(vibrates=True)
-    verb("undo", "undo the last edit or bake; a second undo restores it", _undone, of_object=False)
+    verb("undo", f"take back the last edit or bake, up to {MOST_STEPS} in a row", _undone, of_object=False)
+    verb("redo", "restore what the last undo took back", _undone, of_object=False)
     diff = verb("diff", "show the differences to another bundle; changes nothing", None, of_object=False)
     diff.add_argument("other", metavar="OTHER", help="folder of a bundle")
     apply = verb("apply", "apply the corrections that were saved on a report page", _corrected, of_object=False)
@@ -167,7 +183,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    require_replaceable(kept_before(arguments.bundle))
+    require_steps(Path(arguments.bundle))
     settings = backend_settings(arguments) if "llm" in arguments else {}
     config = BakeConfig.parse(settings | (loop_settings(arguments) if "actuator" in arguments else {}))
     while True:
@@ -187,11 +203,21 @@ def _edit_once(arguments: argparse.Namespace, config: BakeConfig, console: Conso
     if remaking.report is not None:
         show_report(console, remaking.report, remaking.config.prices)
     all_changes = differences(before, after)
-    if not all_changes and not remade and wishes(after) == wishes(before):
-        # Saving would replace the kept bundle, so that `undo` could no longer take back the edit before.
+    moved = _STEPS.get(arguments.verb)
+    if not remade and not is_other(before, after):
+        if moved is not None:  # an undo or a redo that was interrupted has left this step behind
+            pop(Path(arguments.bundle), moved[0])
+            return _edit_once(arguments, config, console)
+        # Saving would keep an equal bundle as a step, so that an undo would change nothing.
         console.say(f"nothing changed; {arguments.bundle} stays as it was")
         return {"bundle": str(arguments.bundle), "remade": remade}
-    folder = write_both(after, Path(arguments.bundle), before, kept_before(arguments.bundle), since=read)
+    folder = Path(arguments.bundle)
+    if moved is None:
+        write_edited(after, folder, before, console, since=read)
+    else:
+        write_both(after, folder, before, moved[1], since=read)
+        with _warned_of(console, folder):
+            pop(folder, moved[0])
     # A table of its own shows loops, and "loops made again" the actuator.
     changes = [row for row in all_changes if row.what != "actuator" and not row.what.startswith("loop ")]
     for object_id, what, old, new in changes:
@@ -206,14 +232,17 @@ def _edit_once(arguments: argparse.Namespace, config: BakeConfig, console: Conso
     if not changes and not remade:
         console.say(_without_values(arguments.verb, sum(row.what.startswith("loop ") for row in all_changes)))
     console.say(f"wrote {folder}")
+    if moved is not None:
+        n_back, n_forward = (len(steps_beside(folder, kind)) for kind in ("before", "after"))
+        console.say(f"{counted(n_back, 'step')} back by undo, {counted(n_forward, 'step')} forward by redo")
     return {"bundle": str(folder), "remade": remade}
 
 
 def _without_values(verb: str, n_loops: int) -> str:
-    """Describe an edit that changed no value. Only `undo` brings back loops without making them."""
-    if verb != "undo":
+    """Describe an edit that changed no value. Only `undo` and `redo` bring back loops without making them."""
+    if verb not in _STEPS:
         return "the values stay; noted as yours, for later bakes"
-    return f"{counted(n_loops, 'loop') if n_loops else 'the corrections'} of the bundle before"
+    return f"{counted(n_loops, 'loop') if n_loops else 'the corrections'} of the bundle {_STEPS[verb][0]}"
 
 
 def wishes(bundle: HapticBundle) -> dict[str, Override]:
@@ -279,15 +308,41 @@ def _rebaked(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
 
 
 def _undone(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
-    kept = kept_before(remaking.arguments.bundle)
-    if not kept.exists():
-        raise BundleError(
-            f"there is nothing to undo: the folder {str(kept)!r} of the bundle before an edit does not exist."
-        )
-    return HapticBundle.load(kept)
+    verb, folder = remaking.arguments.verb, Path(remaking.arguments.bundle)
+    kind = _STEPS[verb][0]
+    steps = steps_beside(folder, kind)
+    if not steps:
+        reason = f"; up to {MOST_STEPS} steps are kept" if verb == "undo" else "; an edit after an undo removes it"
+        raise BundleError(f"there is nothing to {verb}: {str(step_beside(folder, kind))!r} does not exist{reason}.")
+    return HapticBundle.load(steps[0])
 
 
-def kept_before(bundle: str) -> Path:
-    """Return the folder that keeps the bundle before the last edit."""
-    folder = Path(bundle).resolve()
-    return folder.with_name(f"{folder.name}.before")
+def require_steps(folder: Path) -> None:
+    """Check that the folders of a bundle's steps can be replaced. Raises: BundleError: as `require_replaceable`."""
+    for step in [*steps_beside(folder, "before"), *steps_beside(folder, "after")]:
+        require_replaceable(step)
+
+
+def is_other(before: HapticBundle, after: HapticBundle) -> bool:
+    """Return True if an edit or a bake has changed something, so that `undo` has something to restore."""
+    return before.objects != after.objects or bool(differences(before, after)) or wishes(before) != wishes(after)
+
+
+def write_edited(
+    after: HapticBundle, folder: Path, before: HapticBundle, console: Console, since: Stamp | None = None
+) -> Path:
+    """Write a bundle, keep the one before as a step back, and remove the steps forward. Raises: as `write_both`."""
+    write_both(after, folder, before, "before", since)
+    with _warned_of(console, folder):
+        while steps_beside(folder, "after"):
+            pop(folder, "after")
+    return folder
+
+
+@contextlib.contextmanager
+def _warned_of(console: Console, folder: Path) -> Iterator[None]:
+    """Report a step that cannot be removed as a warning, since the bundle is written."""
+    try:
+        yield
+    except (OSError, BundleError) as cause:
+        console.warn(f"{folder} is written, but an earlier step beside it cannot be removed: {reason_of(cause)}")

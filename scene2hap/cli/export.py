@@ -68,6 +68,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     console.say(
         f"wrote {counted(len(report.files), 'file')} below {arguments.output}; report.txt has the error of each"
     )
+    if report.removed:
+        console.say(f"removed {counted(len(report.removed), 'file')} of sources that no longer exist")
     return report.to_data()
 
 

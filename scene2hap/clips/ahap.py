@@ -88,13 +88,15 @@ class _Control:
 
 @dataclass
 class _Pattern:
-    """One file: its events, and the controls of intensity and sharpness."""
+    """One file: its events, and the controls of intensity and sharpness. `longest_s` : the duration of an event that
+    is cut [s], 0 without one."""
 
     continuous: list[_Event] = field(default_factory=list)
     transients: list[Transient] = field(default_factory=list)
     intensity: _Control = field(default_factory=lambda: _Control(1.0))
     sharpness: _Control = field(default_factory=lambda: _Control(0.0))
     ignored: set[str] = field(default_factory=set)
+    longest_s: float = 0.0
 
 
 def read_ahap(path: Path) -> HapticClip:
@@ -104,10 +106,16 @@ def read_ahap(path: Path) -> HapticClip:
     The pair is found by its names, `x.continuous.ahap` and `x.transients.ahap`. As in Apple's player, values out of
     range are clamped and unknown keys ignored.
     Raises: ClipError: the file is no AHAP, or has no event.
-    Warns: ClipWarning: events, curves or parameters that are not haptic.
+    Warns: ClipWarning: events, curves or parameters that are not haptic; an event longer than `MAX_EVENT_S`.
     """
     parts = [_pattern(read_fields(part, needed="Pattern", kind="AHAP")) for part in _pair(path)]
     ignored = sorted(set[str]().union(*(part.ignored for part in parts)))
+    if longest_s := max(part.longest_s for part in parts):
+        warn_of(
+            f"{path}: an event lasts {longest_s:g} s; the player ends it after {MAX_EVENT_S:g} s. Write another event "
+            "for the rest.",
+            ClipWarning,
+        )
     if ignored:
         warning = f"{path}: {', '.join(ignored)} in it is not played; intensity and sharpness of haptic events are."
         warn_of(warning, ClipWarning)
@@ -215,7 +223,10 @@ def _read_event(event: Fields, pattern: _Pattern) -> None:
         elif value != _NEUTRAL.get(name):
             pattern.ignored.add(f"the parameter {name!r} of an event")
     if kind == "HapticContinuous":
-        duration_s = min(event.number("EventDuration", at_most=MAX_CLIP_S, unit="s"), MAX_EVENT_S)
+        duration_s = event.number("EventDuration", at_most=MAX_CLIP_S, unit="s")
+        if duration_s > MAX_EVENT_S:
+            pattern.longest_s = max(pattern.longest_s, duration_s)
+            duration_s = MAX_EVENT_S
         if duration_s > 0.0:
             pattern.continuous.append(_Event(start, start + duration_s, values[_INTENSITY], values[_SHARPNESS]))
     elif kind == "HapticTransient":

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -25,15 +26,17 @@ from scene2hap.common.text_files import write_whole
 from scene2hap.devices.memory import MemorySink
 from scene2hap.errors import ConfigError, ExportError, unwritable
 from scene2hap.export.fidelity import fidelity
-from scene2hap.export.manifest import NAME, manifest_of
+from scene2hap.export.manifest import NAME, Manifest, manifest_of
 from scene2hap.export.protocol import EXPORTS, Exported, Exporter, json_bytes
 from scene2hap.export.report import ExportReport, FileReport
-from scene2hap.export.track import Channel, Track
+from scene2hap.export.track import Channel, Signal, Track
 from scene2hap.session import HapticSession, SessionConfig
 from scene2hap.session.touch_track import TouchTrack
 from scene2hap.session.track_player import play_track
 
 ALL = "all"
+_BLOCK_S = 0.05
+"""Length of the blocks whose means are compared, to find an offset [s]: one cycle at 20 Hz."""
 _CHANNEL_NAMES = {1: [""], 2: ["left", "right"]}
 Progress = Callable[[str, str, int, int], None]
 Kinds = str | Mapping[str, Any] | Exporter | Sequence[str | Mapping[str, Any] | Exporter]
@@ -57,7 +60,8 @@ def export_bundle(
         step, number done and total number.
     Returns: the written files, with the error of each.
     Raises: ConfigError: an unknown kind or setting; SessionError: touches that cannot be played; ExportError: the
-    folder cannot be written. Files are written atomically, the manifest last.
+    folder cannot be written. Files are written atomically, the manifest last. Then files of these kinds are removed
+    that an earlier manifest of this scene lists for a source, and the new one does not.
     """
     exporters = _exporters(to)
     if not isinstance(bundle, HapticBundle):
@@ -98,6 +102,8 @@ def export_clip(
     A sound file is taken as a vibration, as `convert` and `render` write it. Two channels are the left and the right
     hand, more are "channel_1" and so on. A file that peaks above full scale is scaled down to it.
 
+    A constant offset is removed.
+
     Raises: AudioError, ClipError: the file cannot be read; and as `export_bundle`.
     """
     path = checks.path("path", path, error=ExportError)
@@ -106,12 +112,26 @@ def export_clip(
         clip = read_haptic_clip(path)
         channels = {"": Channel(np.clip(synthesize(clip), -1.0, 1.0), RATE_HZ, clip=clip)}
     else:
-        samples, rate = read_channels(path)
+        read, rate = read_channels(path)
+        samples = _without_offset(read.astype(np.float64), rate)
         samples = samples / max(1.0, float(np.abs(samples).max()))  # one factor: clipping would distort
         names = _CHANNEL_NAMES.get(samples.shape[1], [f"channel_{i + 1}" for i in range(samples.shape[1])])
         channels = {name: Channel(one, rate) for name, one in zip(names, samples.T, strict=True)}
     track = Track(file_stem(path.stem), channels)
     return _write([track], exporters, checks.path("folder", folder, error=ExportError), None, progress)
+
+
+def _without_offset(samples: Signal, rate_hz: float) -> Signal:
+    """Subtract the constant offset of each channel (n, n_channels), such as that of a cheap recorder.
+
+    No actuator plays it, and an envelope would show it as vibration. It must hold throughout the file: in a file of
+    pulses in one direction with silence between them, the mean is no offset.
+    """
+    block = max(1, min(len(samples), round(_BLOCK_S * rate_hz)))
+    blocks = samples[: len(samples) // block * block].reshape(-1, block, samples.shape[1]).mean(axis=1)
+    offset = np.median(blocks, axis=0)
+    holds = np.percentile(blocks * np.sign(offset), 5, axis=0) >= np.abs(offset) / 2
+    return np.where(holds, samples - offset, samples)
 
 
 def _exporters(to: Kinds) -> dict[str, Exporter]:
@@ -169,11 +189,38 @@ def _write(
             if progress is not None:
                 progress("exporting", f"{track.name} to {kind}", done, total)
     report = ExportReport(str(folder), tuple(rows))
+    before = _files_of_sources(folder) if manifest is not None else None
     _put(folder, "report.json", json_bytes(report.to_data()))
     _put(folder, "report.txt", f"{report}\n".encode())
     if manifest is not None:
         _put(folder, NAME, manifest(report))
+        now = _files_of_sources(folder)
+        if before is not None and now is not None and before[0] == now[0]:
+            gone = sorted(name for name in before[1] - {*report.files} if name.partition("/")[0] in exporters)
+            report = replace(report, removed=tuple(name for name in gone if _remove(folder, name)))
     return report
+
+
+def _files_of_sources(folder: Path) -> tuple[str, set[str]] | None:
+    """Return the scene and the files of its sources in a folder's manifest, None without one that can be read."""
+    try:
+        found = Manifest.model_validate_json((folder / NAME).read_bytes())
+    except (OSError, ValueError):
+        return None
+    states = [state for source in found.sources for state in source.states]
+    return found.scene, {name for state in states for entry in state.files for name in entry.files}
+
+
+def _remove(folder: Path, name: str) -> bool:
+    """Remove an exported file, KIND/NAME. Returns False if it is not there, or elsewhere."""
+    path = folder / name
+    if name.count("/") != 1 or "\\" in name or ".." in path.parts or path.is_symlink():
+        return False
+    try:
+        path.unlink()
+    except OSError:
+        return False
+    return True
 
 
 def _rows(kind: str, track: Track, made: Exported) -> list[FileReport]:

@@ -39,10 +39,11 @@ class FileReport:
 
 @dataclass(frozen=True)
 class ExportReport:
-    """All files of an export."""
+    """All files of an export. `removed` are those of an earlier one whose sources no longer exist."""
 
     folder: str
     rows: Sequence[FileReport] = field(default_factory=tuple)
+    removed: tuple[str, ...] = ()
 
     @property
     def files(self) -> tuple[str, ...]:

@@ -165,7 +165,7 @@ def test_a_locked_loop_stays_byte_for_byte(
     assert main(["edit", str(folder), "undo", "-q"]) == 0
     assert contents(folder, mine) == locked
     assert all(contents(folder, key) != rebaked[key] for key in others)
-    assert main(["edit", str(folder), "undo", "-q"]) == 0
+    assert main(["edit", str(folder), "redo", "-q"]) == 0
     assert {key: contents(folder, key) for key in (mine, *others)} == rebaked
 
     assert main(["edit", str(folder), "unlock", mine, "-q"]) == 0
@@ -198,6 +198,47 @@ def test_undo_of_another_actuator_tells_of_the_loops(
     assert main(["edit", folder, "material", "oak table", "oak", "-q"]) == 0
     assert main(["edit", folder, "undo"]) == 0
     assert "the corrections of the bundle before" in capsys.readouterr().out
+
+
+def test_undo_goes_back_several_steps_and_redo_forward(
+    kitchen: Callable[..., Path], capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = kitchen()
+    beside = folder.with_name("kitchen.bundle.before")
+
+    def gain(*words: str) -> float:
+        assert main(["edit", str(folder), *words, "-q"]) == 0
+        return HapticBundle.load(folder).gain_db("fan")
+
+    for db in range(1, 8):
+        assert gain("gain", "fan", str(-db)) == -db
+    beside.joinpath("notes.txt").write_text("mine")
+    assert [gain("undo") for _ in range(5)] == [-6, -5, -4, -3, -2]
+    assert main(["edit", str(folder), "undo"]) == 1
+    assert "nothing to undo" in capsys.readouterr().err
+    assert [gain("redo") for _ in range(3)] == [-3, -4, -5]
+    assert gain("undo") == -4
+    assert gain("gain", "fan", "2") == 2  # an edit after an undo: the steps forward are gone
+    assert main(["edit", str(folder), "redo"]) == 1
+    assert "nothing to redo" in capsys.readouterr().err
+    assert gain("undo") == -4
+    steps = sorted(path.name for path in folder.parent.iterdir())
+    assert steps == ["kitchen.bundle", *(f"kitchen.bundle.{one}" for one in ("after", "before", "before-2"))]
+    assert [path.read_text() for path in folder.parent.rglob("notes*.txt")].count("mine") >= 1
+    # Steps take hardly any space, and none shares a file with the bundle, which people edit in place.
+    for name in (name for name in files_of(folder) if name.endswith(".wav")):
+        assert (beside / name).stat().st_ino == beside.with_name(f"{beside.name}-2").joinpath(name).stat().st_ino
+        assert (beside / name).stat().st_ino != (folder / name).stat().st_ino
+
+
+def test_an_undo_that_was_interrupted_does_not_stop_the_next(kitchen: Callable[..., Path]) -> None:
+    folder = kitchen()
+    for db in ("-1", "-2"):
+        assert main(["edit", str(folder), "gain", "fan", db, "-q"]) == 0
+    shutil.rmtree(folder)
+    shutil.copytree(folder.with_name("kitchen.bundle.before"), folder)  # the step was written, and not removed
+    assert main(["edit", str(folder), "undo", "-q"]) == 0
+    assert HapticBundle.load(folder).gain_db("fan") == 0.0
 
 
 def test_undo_without_edits_is_refused(

@@ -25,6 +25,7 @@ from scene2hap import (
 )
 from scene2hap.cli import main
 from scene2hap.clips.haptic_format import read_haptic
+from scene2hap.clips.reading import read_haptic_clip
 from scene2hap.demo import tour_path
 from scene2hap.errors import ClipError, ConfigError, ExportError
 from scene2hap.export import EXPORTS, Exported, Track
@@ -144,6 +145,25 @@ def test_a_sound_beyond_full_scale_is_scaled_down(tmp_path: Path) -> None:
     export_clip(tmp_path / "loud.wav", tmp_path / "out", "wav")
     played, _ = soundfile.read(next((tmp_path / "out" / "wav").glob("*.wav")))
     np.testing.assert_allclose(played, loud / 2.0, atol=1e-4)
+
+
+def test_a_constant_offset_is_no_vibration(tmp_path: Path) -> None:
+    t = np.arange(16000) / 8000
+    ticks = np.where(np.arange(16000) % 1600 < 40, 0.6, 0.0)
+    signals = {
+        "constant": (0 * t + 0.3, 0 * t),
+        "hum": (0.3 * np.sin(2 * np.pi * 100 * t) + 0.2, 0.3 * np.sin(2 * np.pi * 100 * t)),
+        "ticks": (ticks, ticks),
+        "offset_ticks": (ticks + 0.1, ticks),
+        "half": (np.where(t < 1.4, np.abs(np.sin(2 * np.pi * 60 * t)), 0.0),) * 2,
+    }
+    for name, (given, expected) in signals.items():
+        soundfile.write(tmp_path / f"{name}.wav", given, 8000, subtype="FLOAT")
+        export_clip(tmp_path / f"{name}.wav", tmp_path / name, ["ahap", {"kind": "wav", "sample_rate_hz": 8000}])
+        (made,) = (tmp_path / name / "wav").glob("*.wav")
+        np.testing.assert_allclose(soundfile.read(made)[0], expected, atol=0.003, err_msg=name)
+    clip = read_haptic_clip(tmp_path / "constant" / "ahap" / "constant.ahap")
+    assert clip.amplitude.values.max() == 0.0
 
 
 def test_a_full_disk_keeps_the_earlier_export(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

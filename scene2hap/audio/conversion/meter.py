@@ -7,7 +7,10 @@ import scipy
 from numpy.typing import NDArray
 
 from scene2hap.audio import analysis
+from scene2hap.audio.levels import over_threshold_db
 from scene2hap.audio.spectra.windows import hann
+from scene2hap.audio.threshold import TACTILE_RANGE_HZ
+from scene2hap.haptics import ActuatorProfile
 
 Block = NDArray[np.float32]
 """Samples (n, channels)."""
@@ -65,6 +68,13 @@ class Meter:
 
         A sound shorter than one segment is analysed whole.
         """
+        return self._peak_hz(analysis.HEARD_RANGE_HZ, None)
+
+    def most_felt_hz(self, actuator: ActuatorProfile) -> float | None:
+        """Return the peak that is farthest over the threshold of touch [Hz], as `levels.most_felt_hz` of a loop."""
+        return self._peak_hz(TACTILE_RANGE_HZ, lambda f: over_threshold_db(f, actuator))
+
+    def _peak_hz(self, range_hz: tuple[float, float], weight_db: analysis.Weight | None) -> float | None:
         if not self._is_measured and self._filled > 1:
             rest = self._segment[:, : self._filled]
             window = hann(self._filled).astype(np.float32)
@@ -72,9 +82,10 @@ class Meter:
             self._add(np.pad(rest, ((0, 0), (0, self._segment.shape[1] - self._filled))))
         if not self._power[1:].any():
             return None
-        low, high = analysis.HEARD_RANGE_HZ
+        low, high = range_hz
         bin_hz = self._rate / self._segment.shape[1]
-        return analysis.peak_frequency_hz(np.sqrt(self._power), bin_hz, (low, min(high, 0.5 * self._rate)))
+        within_hz = low, min(high, 0.5 * self._rate)
+        return analysis.peak_frequency_hz(np.sqrt(self._power), bin_hz, within_hz, weight_db)
 
     def _skip(self, at: int, end: int) -> int:
         """Return the index in the block at which the next segment begins or continues; `end` if none does."""

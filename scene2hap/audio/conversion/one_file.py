@@ -49,9 +49,10 @@ class Conversion:
 
     `n_clipped` samples were beyond full scale and were written as full scale. `level_db` is the sensation level of the
     vibration [dB]; the head-room may keep it below `asked_level_db`. It is None for silence, for `raw`, and if sound or
-    vibration are only the noise of a recording (`levels.is_noise`), which is not amplified. Dominant frequencies are
-    those of the mean power spectrum of all channels, 10 Hz to 20 kHz; None for silence. `picture` is None if none was
-    drawn.
+    vibration are only the noise of a recording (`levels.is_noise`), which is not amplified. `frequency_in_hz`
+    is the highest peak of the mean power spectrum of all channels, 10 Hz to 20 kHz. `frequency_out_hz` is the peak of
+    the vibration that is farthest over the threshold of touch, 10 Hz to 1 kHz, as in a bundle. Both are None for
+    silence. `picture` is None if none was drawn.
     """
 
     source: Path
@@ -151,7 +152,7 @@ def convert(
         after.peak,
         n_clipped + sum(getattr(stream, "n_clipped", 0) for stream in streams),
         before.dominant_frequency_hz(),
-        after.dominant_frequency_hz(),
+        after.most_felt_hz(context.actuator),
         time.perf_counter() - begin,
         drawn,
         level_db,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import chain
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import soundfile
@@ -42,7 +43,7 @@ def draw_conversion(
 ) -> None:
     """Draw the sound of a file above its vibration, and save the picture as PNG.
 
-    Both spectrograms share one scale. A line marks the dominant frequency of the vibration, and a line in its envelope
+    Both spectrograms share one scale. A line marks the most felt frequency of the vibration, and a line in its envelope
     the threshold of touch at that frequency on the actuator. `sensation` is written above the vibration.
 
     `felt` is the converted file; `meters` have measured both and hold their envelopes (n_columns,). Each of the `WIDTH`
@@ -56,7 +57,7 @@ def draw_conversion(
     top = TOP
     spectrograms = [_spectrogram(sound, meter.n_frames) for sound, meter in zip((source, felt), meters, strict=True)]
     loudest = max(float(powers.max()) for powers, _ in spectrograms)
-    felt_hz = meters[1].dominant_frequency_hz()
+    felt_hz = meters[1].most_felt_hz(actuator)
     for name, (powers, rate), meter in zip(("before", "after"), spectrograms, meters, strict=True):
         says = f", {sensation}" if sensation is not None and name == "after" else ""
         draw.text((MARGIN, top), f"{name}: {DEPTH_DB:g} dB down from the loudest of both{says}", fill=_INK, font=font)
@@ -145,8 +146,10 @@ def _draw_felt(
     y = top + _row(felt_hz, highest_hz)
     draw.line([(MARGIN, y), (MARGIN + 12, y)], fill=_FELT, width=2)
     draw.line([(MARGIN + WIDTH - 12, y), (MARGIN + WIDTH, y)], fill=_FELT, width=2)
-    draw.text((MARGIN + 16, y - 9), f"{felt_hz:.0f} Hz", fill="white", font=font)
+    # An outline keeps the words legible on bright bands of the spectrogram, and on the white ground of the envelope.
+    outline: dict[str, Any] = {"fill": "white", "font": font, "stroke_width": 2, "stroke_fill": _INK}
+    draw.text((MARGIN + 16, y - 9), f"{felt_hz:.0f} Hz", **outline)
     least_db = float(drive_db(felt_hz, 0.0, actuator))
     y = top + SPECTROGRAM + 6 + _depth(least_db)
     draw.line([(MARGIN, y), (MARGIN + WIDTH, y)], fill=_FELT, width=2)
-    draw.text((MARGIN + 4, y - 18), f"felt from here on at {felt_hz:.0f} Hz", fill="white", font=font)
+    draw.text((MARGIN + 4, y - 18), f"felt from here on at {felt_hz:.0f} Hz", **outline)

@@ -86,6 +86,11 @@ def loop_pair(
     """
     intensity = checks.number("intensity", context.intensity, "-", above=0.0, at_most=1.0, error=AudioError)
     rate = clip.sample_rate_hz
+    if clip.duration_s < MIN_CLIP_S:
+        raise AudioError(
+            f"{clip.credit.title!r} lasts {clip.duration_s:.3g} s; it must last at least {MIN_CLIP_S:g} s. Use a "
+            "longer sound."
+        )
     peak = float(np.abs(clip.samples).max(initial=0.0))
     if 0.0 < peak < 10 ** (FAINTEST_PEAK_DB / 20):
         raise AudioError(
@@ -112,10 +117,6 @@ def loop_pair(
 
 def _looped(clip: AudioClip, converter: TactileConverter, context: ConversionContext) -> tuple[Samples, Samples]:
     if clip.is_vibration:
-        if clip.duration_s < MIN_CLIP_S:
-            raise AudioError(
-                f"{clip.credit.title!r} lasts {clip.duration_s:g} s; it must last {MIN_CLIP_S:g} s at least."
-            )
         vibration = clip if context.own_hz == context.target_hz else convert_clip(clip, converter, context)
         loop = whole_loop(vibration.samples, clip.sample_rate_hz)
         return loop, loop

@@ -31,4 +31,4 @@ class DualSenseExport:
         for name, samples in at_rate.items():
             frames[: len(samples), places[name]] = samples[:, None]
         played = {name: track.channels[name].resampled(SAMPLE_RATE_HZ) for name in places}
-        return Exported({f"{track.name}.wav": encoded(frames, SAMPLE_RATE_HZ, "PCM_16")}, played)
+        return Exported({f"{track.name}.wav": encoded(frames, SAMPLE_RATE_HZ, "PCM_16", is_loop=track.is_loop)}, played)

@@ -20,5 +20,5 @@ class WavExport:
     def export(self, track: Track) -> Exported:
         """Return one file with all channels."""
         played = {name: one.resampled(self.sample_rate_hz) for name, one in track.channels.items()}
-        content = encoded(track.frames(self.sample_rate_hz), self.sample_rate_hz, "PCM_24")
+        content = encoded(track.frames(self.sample_rate_hz), self.sample_rate_hz, "PCM_24", is_loop=track.is_loop)
         return Exported({f"{track.name}.wav": content}, played)

@@ -1,7 +1,8 @@
 """LocalBackend: answers of a model on your own machine or network.
 
 Local servers implement structured output incompletely. So the prompt also lists the fields of the answer. If a server
-rejects a form, a less strict one is requested. The answer is extracted from the text of the reply.
+rejects a form, a less strict one is requested; a parameter that it rejects is no longer sent.
+The answer is extracted from the text of the reply.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from scene2hap.llm.backends import chat, server_models
 from scene2hap.llm.backends.dialects import LADDER, ChatCompletions, Decoding, Dialect, OllamaChat, Rung
 from scene2hap.llm.backends.http_client import Endpoint
 from scene2hap.llm.backends.image_tokens import LostImages
+from scene2hap.llm.backends.optional_parameters import OptionalParameters
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 
 if TYPE_CHECKING:
@@ -90,6 +92,7 @@ class LocalBackend:
         )
         self._dialect: Dialect = (OllamaChat if dialect == "ollama" else ChatCompletions)(self._decoding)
         self._endpoint = Endpoint(base_url, Secret(api_key), timeout_s, transport)
+        self._optional = OptionalParameters()
         self._rung = 0
         self._lost_images = LostImages()
         self._eyes_checked = False
@@ -150,7 +153,12 @@ class LocalBackend:
 
     async def _post(self, request: LLMRequest, rung: Rung) -> WebReply:
         text = f"{request.prompt}\n\n{fields_in_words(request.answer_schema)}"
-        return await self._endpoint.post(self._dialect.path, self._dialect.body(request, self.model or "", text, rung))
+        body = self._dialect.body(request, self.model or "", text, rung)
+        while True:
+            sent = self._optional.adapted(body)
+            reply = await self._endpoint.post(self._dialect.path, sent)
+            if not self._optional.learns(reply, self.model or self._endpoint.base_url, sent):
+                return reply
 
     async def _models(self) -> tuple[server_models.Served, ...]:
         return await (server_models.ollama_models if self._is_ollama else server_models.openai_models)(self._endpoint)

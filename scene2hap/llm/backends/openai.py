@@ -6,21 +6,20 @@ Source: the OpenAPI description in openai/openai-openapi; OpenAI's guides "Struc
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.secret import Secret
-from scene2hap.common.warning import warn_of
 from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.answers.schema import strict_schema
 from scene2hap.llm.backends import chat
 from scene2hap.llm.backends.http_client import Endpoint
-from scene2hap.llm.backends.http_errors import ServerError, failure, server_error
+from scene2hap.llm.backends.http_errors import server_error
 from scene2hap.llm.backends.image_tokens import ImagesAsText
+from scene2hap.llm.backends.optional_parameters import OptionalParameters
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 
 if TYPE_CHECKING:
@@ -28,18 +27,6 @@ if TYPE_CHECKING:
 
 KEY_VARIABLE = "OPENAI_API_KEY"
 BASE_URL = "https://api.openai.com/v1"
-
-_GIVES_WAY = {
-    "temperature": None,
-    "top_p": None,
-    "seed": None,
-    "service_tier": None,
-    "max_tokens": "max_completion_tokens",
-}
-"""Parameters that some models reject, and the name that these models accept instead; None for no such name. Models that
-always reason reject temperature and top_p. Some models are not offered in the flex tier."""
-
-_QUOTED = re.compile(r"['\"`](\w+)['\"`]")
 
 TIMEOUT_S, FLEX_TIMEOUT_S = 120.0, 900.0
 """Longest wait for one answer [s]. The value for the flex tier is from OpenAI's guide "Flex processing"."""
@@ -109,7 +96,7 @@ class OpenAIBackend:
             "seed": seed,
             "reasoning_effort": reasoning_effort,
         }
-        self._given_way: set[str] = set()
+        self._optional = OptionalParameters()
         self._images_as_text = ImagesAsText(detail)
 
     def __repr__(self) -> str:
@@ -147,7 +134,7 @@ class OpenAIBackend:
 
     def body(self, request: LLMRequest) -> dict[str, Any]:
         """Return the body of a request, without parameters that this model has rejected."""
-        return self._adapted(self._body(request))
+        return self._optional.adapted(self._body(request))
 
     def judged(self, request: LLMRequest, said: chat.Said) -> LLMReply:
         """Return the reply for a chat completion. Raises: BadAnswer: as `complete`."""
@@ -177,7 +164,7 @@ class OpenAIBackend:
         If the tier has no capacity, only this request is repeated without the tier.
         """
         while True:
-            sent = self._adapted(body)
+            sent = self._optional.adapted(body)
             reply = await self._endpoint.post("chat/completions", sent)
             error = server_error(reply)
             if reply.status == 429 and _NO_CAPACITY in (error.code, error.type) and "service_tier" in sent:
@@ -193,34 +180,4 @@ class OpenAIBackend:
 
         A parameter that is not in `sent` was dropped before, so the result is False.
         """
-        blamed = _blamed(server_error(reply)) if reply.status == 400 else ""
-        if blamed not in _GIVES_WAY or (sent is not None and blamed not in sent):
-            return False
-        self._give_way(blamed, failure(reply))
-        return True
-
-    def _adapted(self, body: dict[str, Any]) -> dict[str, Any]:
-        renamed = {_GIVES_WAY[name] if name in self._given_way else name: value for name, value in body.items()}
-        return {name: value for name, value in renamed.items() if name is not None}
-
-    def _give_way(self, parameter: str, reason: BackendUnavailable) -> None:
-        if parameter in self._given_way:
-            return  # a concurrent call has already dropped it
-        self._given_way.add(parameter)
-        instead = _GIVES_WAY[parameter]
-        if parameter == "service_tier":
-            what = "it is no longer sent, so answers cost the standard price"
-        else:
-            what = f"it is sent as {instead!r}" if instead else "it is no longer sent, so answers may vary more"
-        warn_of(f"{self.model} does not take {parameter!r}; {what}. {reason}", chat.BackendWarning)
-
-
-def _blamed(error: ServerError) -> str:
-    """Return the parameter that an error rejects. Gateways leave `param` empty, and quote the parameter's name.
-
-    The first name counts: "'max_tokens' is not supported, use 'max_completion_tokens'".
-    """
-    if error.param:
-        return error.param
-    quoted = _QUOTED.search(error.message)
-    return quoted[1] if quoted is not None else ""
+        return self._optional.learns(reply, self.model, sent)

@@ -7,10 +7,11 @@ from typing import Any
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import BackendError, BudgetExceeded, ConfigError
-from scene2hap.llm.backends.chat import UnusableAnswer
+from scene2hap.llm.backends.chat import BackendWarning, UnusableAnswer
 from scene2hap.llm.protocol import LLMReply, LLMRequest
-from scene2hap.llm.stack import Spec, Wrapper
+from scene2hap.llm.stack import Spec, Wrapper, identity, is_remote
 from scene2hap.llm.wrappers.prices import Given, Price, PriceList, price_list
 
 
@@ -21,7 +22,8 @@ class BudgetBackend(Wrapper):
     prices : model name -> `Price`, or (input, output) or (input, output, cached input) [US dollars per million
     tokens]. They add to the dated list (`price_list()`) and override it. A model in neither has an unknown price,
     never a price of 0.
-    Limits are checked before each call, with the usage known by then. Concurrent calls can exceed a limit on tokens or
+    Limits are checked before each call, with the usage known by then. Whether a service reports usage shows in its
+    first answer only. Concurrent calls can exceed a limit on tokens or
     cost by their own usage, but never a limit on calls.
     Raises: ConfigError: a negative limit or an invalid price.
     """
@@ -66,6 +68,7 @@ class BudgetBackend(Wrapper):
     async def complete(self, request: LLMRequest) -> LLMReply:
         """Return the inner backend's answer. Raises: BudgetExceeded: no call was made; errors of the inner backend."""
         self._check()
+        self._warn_of_unknown_price()
         self._calls += 1
         try:
             reply = await self.inner.complete(request)
@@ -113,6 +116,20 @@ class BudgetBackend(Wrapper):
                 )
             if used >= limit:
                 raise BudgetExceeded(f"{used:g} {name} used of max_{name} = {limit:g}. Raise the limit to go on.")
+
+    def _warn_of_unknown_price(self) -> None:
+        """Warn before the first call that a limit on cost may end the run after it. Warns: BackendWarning."""
+        limit = self._limits["cost"]
+        if limit is None or self._calls or not is_remote(self.inner):
+            return
+        model = identity(self.inner).get("model")
+        if not isinstance(model, str) or self._prices.of(model) is not None:
+            return
+        warn_of(
+            f"max_cost = {limit:g} can only be kept if answers name a model with a price: the price of {model!r} is "
+            "unknown. Without one the run stops after its first answers. Add it to prices, or limit calls instead.",
+            BackendWarning,
+        )
 
     def _meter(self, reply: LLMReply | UnusableAnswer) -> None:
         read, written = reply.usage.get("prompt_tokens"), reply.usage.get("completion_tokens")

@@ -15,17 +15,22 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from filelock import AsyncFileLock
+from filelock import AsyncFileLock, Timeout
 from pydantic import BaseModel, ConfigDict
 
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.text_files import read_small, write_whole
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import ConfigError, reason_of, unwritable
 from scene2hap.llm.answers.finish_reasons import is_whole
+from scene2hap.llm.backends.chat import BackendWarning
 from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
 from scene2hap.llm.request_key import request_key
 from scene2hap.llm.stack import Spec, Wrapper
 from scene2hap.llm.validation import find_fault
+
+PATIENCE_S = 10.0
+"""Wait for the lock of another process before a warning [s]; assumed: most answers take less."""
 
 
 class _Entry(BaseModel):
@@ -63,6 +68,7 @@ class CacheBackend(Wrapper):
         self._turns: dict[tuple[int, str], tuple[asyncio.Lock, int]] = {}
         self._calls = self._hits = self._stored = self._rejected = 0
         self._unreadable: set[str] = set()
+        self._has_waited = False
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
         except OSError as cause:
@@ -108,10 +114,15 @@ class CacheBackend(Wrapper):
     @asynccontextmanager
     async def _lock(self, key: str) -> AsyncIterator[None]:
         """Allow one call at a time per key among the processes that share the folder."""
-        lock = AsyncFileLock(self._folder / "locks" / f"{key}.lock")
+        path = self._folder / "locks" / f"{key}.lock"
+        lock = AsyncFileLock(path)
         try:
             (self._folder / "locks").mkdir(parents=True, exist_ok=True)
-            await lock.acquire()
+            try:
+                await lock.acquire(timeout=PATIENCE_S)
+            except Timeout:
+                self._warn_of_lock(path)
+                await lock.acquire()
         except (OSError, NotImplementedError) as cause:  # NotImplementedError: a file system without locks
             raise ConfigError(
                 f"cannot lock an answer in {self._folder}: {reason_of(cause)}. Give a folder that can be written."
@@ -120,6 +131,17 @@ class CacheBackend(Wrapper):
             yield
         finally:
             await lock.release()
+
+    def _warn_of_lock(self, path: Path) -> None:
+        """Warn once that an answer is awaited. Warns: BackendWarning."""
+        if not self._has_waited:
+            self._has_waited = True
+            pid = _holder(path)
+            warn_of(
+                f"waiting for an answer that another process{f', {pid},' if pid else ''} is getting: it has locked "
+                f"{path}. If that process is suspended, continue or end it.",
+                BackendWarning,
+            )
 
     def _path(self, key: str) -> Path:
         return self._folder / f"{key}.json"
@@ -162,6 +184,17 @@ class CacheBackend(Wrapper):
             return None
         self._hits += 1
         return LLMReply(entry.text, entry.model, entry.finish_reason, key=key, is_kept=True)
+
+
+def _holder(path: Path) -> int | None:
+    """Return the id of the process that has locked a file, by the list of Linux; None if it is unknown."""
+    try:
+        inode, rows = path.stat().st_ino, Path("/proc/locks").read_text(encoding="ascii").splitlines()
+    except (OSError, ValueError):
+        return None
+    # 1: FLOCK  ADVISORY  WRITE 1234 08:01:5678 0 EOF; a row of a waiting process has "->" after its number
+    held = [row.split() for row in rows if "->" not in row]
+    return next((int(row[4]) for row in held if len(row) > 5 and row[5].endswith(f":{inode}") and row[4] != "-1"), None)
 
 
 def _key(request: LLMRequest, identity: dict[str, Any]) -> str:

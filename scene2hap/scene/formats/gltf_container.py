@@ -167,9 +167,9 @@ def _split(name: str, data: bytes) -> tuple[bytes, bytes | None]:
     version, length = struct.unpack_from("<II", data, 4)
     if version != 2:
         raise SceneFormatError(f"{name!r} is GLB version {version}; version 2 is read. Export it as glTF 2.0.")
-    if length != len(data):
-        fault = "cut short" if length > len(data) else "its header is wrong"
-        raise SceneFormatError(f"{name!r} says it has {length} bytes and has {len(data)}: {fault}.")
+    if length > len(data):
+        raise SceneFormatError(f"{name!r} says it has {length} bytes and has {len(data)}: cut short.")
+    data = data[:length]  # some tools pad the file; viewers such as three.js ignore what follows
     chunks: dict[int, bytes] = {}
     at = 12
     while at < len(data):

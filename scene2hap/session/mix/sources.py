@@ -29,6 +29,7 @@ class Level:
         """Set the arguments that are not None. Raises: SessionError: the gain is out of bounds."""
         if gain_db is not None:
             hint = "Use mute for silence."
+            # No lower bound: a game turns the position of a fader into decibels, which may be any finite number.
             bounded = checks.number("gain_db", gain_db, "dB", at_most=MAX_GAIN_DB, error=SessionError, hint=hint)
             warn_if_percent(bounded)
             self.gain_db = bounded

@@ -7,7 +7,7 @@ import pytest
 from llm_asking import ask, local, ollama
 from llm_server import GOOD, KEY, PNG, ollama_said, refused, request, said, serving
 from openai_schema import assert_openai_takes
-from scene2hap import RepairBackend
+from scene2hap import BackendWarning, RepairBackend
 from scene2hap.errors import BackendUnavailable
 
 REJECTS_JSON_OBJECT = refused(400, "'response_format.type' must be 'json_schema' or 'text'")
@@ -29,6 +29,27 @@ def test_ladder_stops_where_the_server_agrees() -> None:
         backend = local(server)
         ask(backend)
     assert backend.rung == "json_object"
+
+
+def test_rejected_parameters_give_way_before_the_format_does() -> None:
+    """As for OpenAI: reasoning models behind a local address take no temperature, and name their limit otherwise."""
+    script = [
+        refused(400, {"message": f"Unsupported parameter: '{name}'", "param": param})
+        for name, param in (("temperature", "temperature"), ("max_tokens", None))
+    ]
+    with serving(*script, said(), said()) as server:
+        backend = local(server, max_tokens=300)
+        with pytest.warns(BackendWarning) as caught:
+            ask(backend)
+        ask(backend)
+    assert [str(one.message).partition(";")[0] for one in caught] == [
+        "llava does not take 'temperature'",
+        "llava does not take 'max_tokens'",
+    ]
+    for body in server.bodies[2:]:
+        assert body["max_completion_tokens"] == 300
+        assert not {"temperature", "max_tokens"} & set(body)
+    assert backend.rung == "json_schema"
 
 
 def test_failure_at_every_format_is_not_remembered() -> None:

@@ -6,8 +6,13 @@ import sys
 import time
 from pathlib import Path
 
+import pytest
+
 from llm_server import KEY, Asked, Scripted, said
 from openai_schema import openai_serving
+from scene2hap import Box, FunctionBackend, LexiconBackend, SceneObject, SceneSnapshot, bake
+from scene2hap.errors import BudgetExceeded
+from scene2hap.llm.wrappers import standard_stack
 
 RUNS = 2
 PROGRAM = """
@@ -40,3 +45,19 @@ def test_concurrent_runs_pay_for_each_answer_once(tmp_path: Path) -> None:
     assert answers == [answers[0]] * RUNS
     assert len(server.asked) == 6
     assert {path.suffix for path in (tmp_path / "cache").iterdir() if path.is_file()} == {".json"}
+
+
+def test_an_error_that_stops_a_bake_says_what_the_cache_keeps(tmp_path: Path) -> None:
+    """In an earlier version nothing said that the paid answers are kept."""
+    things = [SceneObject(name, geometry=Box((0.3, 0.5, 0.3))) for name in ("fan", "radio")]
+    scene = SceneSnapshot.build(things, name="room")
+
+    def stopped() -> str:
+        lexicon = LexiconBackend()
+        stack = standard_stack(FunctionBackend(lexicon.complete), tmp_path / "cache", max_calls=2)
+        with pytest.raises(BudgetExceeded) as caught:
+            bake(scene, {"llm": stack, "concurrency": 1})
+        return " ".join(getattr(caught.value, "__notes__", ()))
+
+    assert stopped() == "The cache keeps 2 answers so far; the same command continues from there."
+    assert stopped() == "The cache keeps 4 answers so far; the same command continues from there."

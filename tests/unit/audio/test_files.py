@@ -1,6 +1,9 @@
 from __future__ import annotations
 
+import io
 import os
+import struct
+import wave
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +12,7 @@ import soundfile
 
 from scene2hap import audio
 from scene2hap.audio.clip import Credit
-from scene2hap.audio.files import READABLE, SUFFIXES, read_clip, write_wav
+from scene2hap.audio.files import READABLE, SUFFIXES, encoded, read_clip, write_wav
 from scene2hap.errors import AudioError
 
 RATE = 8000
@@ -187,3 +190,30 @@ def test_a_rate_beyond_any_recorder_is_refused(tmp_path: Path) -> None:
     soundfile.write(path, np.zeros(2000), 2**31 - 1, subtype="PCM_16")
     with pytest.raises(AudioError, match=r"sample_rate_hz is 2\.14748e\+09 Hz; it must be at most 1000000"):
         read_clip(path)
+
+
+@pytest.mark.parametrize(("n", "channels"), [(4800, 1), (4801, 1), (4801, 4)])
+def test_a_loop_says_so_in_its_header(n: int, channels: int) -> None:
+    samples = np.stack([tone(n)] * channels, axis=1)
+    content = encoded(samples, RATE, is_loop=True)
+    assert content == encoded(samples, RATE, is_loop=True)
+    # By libsndfile: SF_INSTRUMENT with its loops, (mode, start, end, count); 801 is forwards.
+    with soundfile.SoundFile(io.BytesIO(content)) as file:
+        np.testing.assert_allclose(file.read(always_2d=True), samples, atol=2**-23)
+        found = soundfile._ffi.new("int[128]")
+        assert soundfile._snd.sf_command(file._file, 0x10D0, found, 4 * 68) == 1
+    assert struct.unpack("<12xI4I", bytes(soundfile._ffi.buffer(found))[:32]) == (1, 801, 0, n, 0)
+    # By the rules of RIFF: every chunk begins at an even byte, and the last ends with the file.
+    chunks, at = {}, 12
+    while at < len(content):
+        size = int.from_bytes(content[at + 4 : at + 8], "little")
+        chunks[content[at : at + 4]] = content[at + 8 : at + 8 + size]
+        at += 8 + size + size % 2
+    assert at == len(content) == 8 + int.from_bytes(content[4:8], "little")
+    assert struct.unpack("<15I", chunks[b"smpl"])[-5:] == (0, 0, n - 1, 0, 0)
+    with wave.open(io.BytesIO(content)) as reader:
+        assert (reader.getnframes(), reader.getnchannels()) == (n, channels)
+
+
+def test_only_loops_have_the_chunk_of_loops() -> None:
+    assert b"smpl" not in encoded(tone(), RATE)

@@ -98,7 +98,7 @@ def test_parallel_conversions_equal_single_ones_and_report_in_order(monkeypatch:
 
 def test_first_of_several_failures_is_reported() -> None:
     told: list[str] = []
-    with pytest.raises(AudioError, match="^no 57 Hz$"):
+    with pytest.raises(AudioError, match="^'fan_1', state 'on': no 57 Hz$"):
         loops(6, Through(fails_at_hz=(57, 64, 85)), told)
     assert told == ["fan_0 1 of 6"]
 

@@ -30,6 +30,12 @@ def test_corrections_have_the_effect_of_overrides(tmp_path: Path) -> None:
     assert not bundle.overrides
 
 
+def test_an_error_names_the_file_and_the_object(tmp_path: Path) -> None:
+    file = saved(tmp_path / "c.json", {"table": {"material": "steel"}, "phone": {"gain_db": 90.0}})
+    with pytest.raises(BundleError, match="c.json: 'phone': gain_db is 90 dB"):
+        table_with_two_phones()[1].corrected(file)
+
+
 def test_rebake_and_edit_apply_a_file_of_corrections(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     phone = SceneObject("phone", geometry=Box((0.07, 0.01, 0.15)))
     bundle = bake(SceneSnapshot.build([phone], name="room"))

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from scene2hap import AudioClip, Credit, HapticBundle, HapticSession, Material, Touch, materials
+from scene2hap.audio.files import write_wav
 from scene2hap.bundle import Override
 from scene2hap.errors import AudioError, BundleError, UnknownMaterial, UnknownObject
 from scenes import RATE, table_with_two_phones
@@ -109,6 +110,21 @@ def test_invalid_override_is_refused(
 ) -> None:
     with pytest.raises(error, match=sentence):
         bundle.override("table", **wish)
+
+
+def test_a_level_of_silence_is_refused_and_says_how_to_mute(bundle: HapticBundle) -> None:
+    with pytest.raises(BundleError, match=r"'phone': gain_db is -600 dB.*at least -120.*muted=True.*mute ID"):
+        bundle.override("phone", gain_db=-600)
+    assert bundle.override("phone", gain_db=-120).gain_db("phone") == -120
+
+
+def test_a_sound_that_is_too_short_is_refused_with_its_file_and_object(bundle: HapticBundle, tmp_path: Path) -> None:
+    click = AudioClip(np.ones(RATE // 50, np.float32) / 2, RATE, Credit("click", "me", "mine"))
+    write_wav(tmp_path / "click20ms.wav", click.samples, RATE)
+    with pytest.raises(AudioError, match=r"'phone': the sound .*click20ms.wav lasts 0.02 s; .* at least 0.1 s"):
+        bundle.override("phone", clip=tmp_path / "click20ms.wav")
+    with pytest.raises(AudioError, match="'phone': the sound 'click' lasts 0.02 s"):
+        bundle.override("phone", clip=click)
 
 
 def test_override_of_a_missing_object_is_refused(bundle: HapticBundle) -> None:

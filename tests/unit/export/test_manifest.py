@@ -42,3 +42,32 @@ def test_objects_and_states_of_a_manifest_are_those_of_the_bundle(tmp_path: Path
     for state in states.values():
         header = json.loads((tmp_path / state["files"][0]["files"][0]).read_text(encoding="utf-8"))
         assert header["frame_count"] / header["sample_rate_hz"] == pytest.approx(state["duration_s"])
+
+
+def test_files_of_sources_that_are_gone_are_removed(tmp_path: Path) -> None:
+    _, bundle = table_with_two_phones()
+    export_bundle(bundle, tmp_path, ["wav", "haptic"])
+    (tmp_path / "wav" / "mine.wav").write_bytes(b"mine")
+    gone = next(key for key in bundle.loops if key != "phone")
+    before = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*.*")}
+    report = export_bundle(bundle.override(gone, vibrates=False), tmp_path, "wav")
+    after = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*.*")}
+    # The format that was not written again stays, and so does what no manifest lists.
+    assert before - after == {*report.removed}
+    assert report.removed
+    assert all(name.startswith("wav/") for name in report.removed)
+    assert "wav/mine.wav" in after
+    assert not any(b"smpl" not in path.read_bytes() for path in (tmp_path / "wav").glob("phone*.wav"))
+
+
+def test_no_file_outside_is_removed_for_a_manifest_that_lists_it(tmp_path: Path) -> None:
+    _, bundle = table_with_two_phones()
+    out = tmp_path / "out"
+    export_bundle(bundle, out, "wav")
+    victim = tmp_path / "victim.wav"
+    victim.write_bytes(b"mine")
+    text = (out / "manifest.json").read_text(encoding="utf-8")
+    listed = next(path.name for path in (out / "wav").iterdir())
+    (out / "manifest.json").write_text(text.replace(f"wav/{listed}", "wav/../../victim.wav"), encoding="utf-8")
+    assert export_bundle(bundle, out, "wav").removed == ()
+    assert victim.exists()

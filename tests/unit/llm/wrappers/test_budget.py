@@ -7,7 +7,16 @@ from typing import Any
 import pytest
 
 from llm_server import request
-from scene2hap import BudgetBackend, CacheBackend, FunctionBackend, LLMReply, LLMRequest, Price, RepairBackend
+from scene2hap import (
+    BackendWarning,
+    BudgetBackend,
+    CacheBackend,
+    FunctionBackend,
+    LLMReply,
+    LLMRequest,
+    Price,
+    RepairBackend,
+)
 from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, ConfigError
 from scene2hap.llm.backends.chat import UnusableAnswer
 from scene2hap.llm.wrappers import price_list
@@ -69,6 +78,22 @@ def test_budget_reports_calls_tokens_and_cost() -> None:
         "prices_of": price_list().date,
         "models_without_price": [],
     }
+
+
+def test_a_limit_on_cost_warns_of_an_unknown_price_before_the_first_call() -> None:
+    class Deployment(FunctionBackend):
+        """A gateway calls a model by a name of its own."""
+
+        @property
+        def identity(self) -> dict[str, Any]:
+            return {"model": "my-deployment", "base_url": "https://gateway.example"}
+
+    inner = Deployment(lambda _: LLMReply("{}", "gpt-4o-2024-08-06", usage=USAGE))
+    backend = BudgetBackend(inner, max_cost=1.0, prices={"gpt-4o": (2.0, 5.0)})
+    with pytest.warns(BackendWarning, match="the price of 'my-deployment' is unknown") as caught:
+        spend(backend, 2)  # its answers name a model with a price
+    assert len(caught) == 1
+    spend(BudgetBackend(answering(), max_calls=3), 1)
 
 
 @pytest.mark.parametrize("model", ["llava", "gpt-4o-latest", "gpt-4o-mini-2024", ""])

@@ -14,6 +14,7 @@ import pytest
 
 from llm_server import GOOD, PNG, request
 from scene2hap import (
+    BackendWarning,
     CacheBackend,
     FunctionBackend,
     LexiconBackend,
@@ -330,6 +331,19 @@ def test_cache_waits_for_the_lock_of_another_run(tmp_path: Path) -> None:
     with other_run(tmp_path, answer):
         assert ask(CacheBackend(inner, tmp_path)).text == ANSWER.text
     assert len(inner.requests) == 1
+
+
+def test_a_long_wait_for_a_lock_names_the_file_and_the_process(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    inner = answering()
+    ask(CacheBackend(inner, tmp_path))
+    answer = json.dumps(json.loads(files(tmp_path)[0].read_bytes()))
+    monkeypatch.setattr("scene2hap.llm.wrappers.cache.PATIENCE_S", 0.1)
+    with other_run(tmp_path, answer) as process, pytest.warns(BackendWarning, match="waiting for an answer") as caught:
+        assert ask(CacheBackend(inner, tmp_path)).text == ANSWER.text
+    (told,) = (str(one.message) for one in caught)
+    assert str(next((tmp_path / "locks").iterdir())) in told
+    if Path("/proc/locks").exists() and str(process.pid) in Path("/proc/locks").read_text():
+        assert f"process, {process.pid}," in told
 
 
 def test_lock_of_a_dead_process_is_released(tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from gltf_builder import CUBE, CUBE_FACES, Gltf, one_cube
+from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.formats.gltf import read_gltf
@@ -324,6 +325,23 @@ def test_hidden_nodes_and_all_below_are_left_out(tmp_path: Path, is_required: bo
     if is_required:
         gltf.header["extensionsRequired"] = ["KHR_node_visibility"]
     assert [item.id for item in load_scene(gltf.write(tmp_path / "scene.glb")).objects] == ["cube", "shown"]
+
+
+def test_nodes_of_scale_0_are_left_out_with_a_warning(tmp_path: Path) -> None:
+    """A common way to hide an object. In an earlier version one such node refused the whole file."""
+    gltf = one_cube()
+    inner = gltf.node("inner", mesh=0)
+    gltf.node("ghost", mesh=0, children=[inner], scale=[0.0, 0.0, 0.0], root=True)
+    gltf.node("locator", scale=[0.0, 0.0, 0.0], root=True)
+    path = gltf.write(tmp_path / "scene.glb")
+    with pytest.warns(SceneWarning, match=r"scene.glb: left out 1 node of scale 0, .*: node 'ghost'\. Scale"):
+        assert [item.id for item in load_scene(path).objects] == ["cube"]
+
+
+def test_what_follows_a_glb_in_its_file_is_ignored(tmp_path: Path) -> None:
+    path = tmp_path / "tail.glb"
+    path.write_bytes(one_cube().glb() + b"tail")
+    assert [item.id for item in load_scene(path).objects] == ["cube"]
 
 
 def test_required_extensions_without_effect_on_geometry_are_accepted(tmp_path: Path) -> None:

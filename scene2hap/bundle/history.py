@@ -1,0 +1,65 @@
+"""Earlier bundles beside a bundle, for undo and redo: `BUNDLE.before`, the one before the last edit, `BUNDLE.before-2`,
+the one before that, and so on. `BUNDLE.after`, `BUNDLE.after-2`, ... are those that an undo took back.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+from typing import Literal
+
+from scene2hap.bundle.foreign_files import discard
+from scene2hap.bundle.manifest import MANIFEST
+
+MOST_STEPS = 5
+"""Most steps back. An edit drops the oldest one beyond (assumed: more than that is a bundle to copy by hand)."""
+
+Kind = Literal["before", "after"]
+
+
+def step_beside(bundle: Path, kind: Kind) -> Path:
+    """Return the folder of the nearest step back ("before") or forward ("after"), whether or not it exists."""
+    folder = bundle.resolve()
+    return folder.with_name(f"{folder.name}.{kind}")
+
+
+def steps_beside(bundle: Path, kind: Kind) -> list[Path]:
+    """Return the folders of the steps that exist, the nearest first."""
+    return [folder for folder in _places(step_beside(bundle, kind)) if os.path.lexists(folder)]
+
+
+def push(old: Path, nearest: Path) -> None:
+    """Keep the folder `old`, which `nearest` has replaced, as the step behind it. Drops the one beyond `MOST_STEPS`.
+
+    Raises: OSError, BundleError: a folder cannot be moved or removed.
+    """
+    if not os.path.lexists(old / MANIFEST):  # an empty folder
+        discard(old, nearest)
+        return
+    places = _places(nearest)
+    free = next((number for number, place in enumerate(places) if number and not os.path.lexists(place)), None)
+    if free is None:
+        discard(places[-1], nearest)
+        free = MOST_STEPS - 1
+    for number in range(free, 1, -1):
+        places[number - 1].rename(places[number])
+    old.rename(places[1])
+    shutil.copymode(nearest, places[1])
+
+
+def pop(bundle: Path, kind: Kind) -> None:
+    """Remove the nearest step and move the others up. A person's files in it move to the next one, or to the bundle.
+
+    Raises: OSError, BundleError: a folder cannot be moved or removed.
+    """
+    steps = steps_beside(bundle, kind)
+    discard(steps[0], steps[1] if len(steps) > 1 else bundle.resolve())
+    for place, step in zip(_places(step_beside(bundle, kind)), steps[1:], strict=False):
+        if step != place:
+            step.rename(place)
+
+
+def _places(nearest: Path) -> list[Path]:
+    later = [nearest.with_name(f"{nearest.name}-{number}") for number in range(2, MOST_STEPS + 1)]
+    return [nearest, *later]
