@@ -46,4 +46,6 @@ def test_felt_level_can_be_read_while_blocks_are_added() -> None:
     heard, parts = FeltLevel(RATE, 1, ActuatorProfile()), rng.normal(size=(5, 3000, 1)).astype(np.float32)
     for n, part in enumerate(parts, 1):
         heard.hear(part)
-        assert heard.level_db() == heard.level_db() == level_db(np.concatenate(parts[:n]), 1234)
+        assert heard.level_db() == heard.level_db()
+        # Processors add the components of one or several pieces in another order.
+        assert heard.level_db() == pytest.approx(level_db(np.concatenate(parts[:n]), 1234), abs=1e-9)

@@ -49,10 +49,11 @@ def test_nodes_keep_names_and_transforms(tmp_path: Path) -> None:
     nodes = f"""<node id="n1" name="shelf"><translate>5 0 0</translate>{FLAT}
         <node id="n2" name="board"><scale>2 2 2</scale>{FLAT}<node id="n3" name="book">{FLAT}</node></node></node>
         <node id="n4" name="shelf"><rotate>0 0 1 90</rotate>{FLAT}</node>"""
-    shelf, board, second = load_scene(write(tmp_path, dae(nodes))).objects
-    assert [item.id for item in (shelf, board, second)] == ["shelf", "board", "shelf#2"]
+    shelf, board, book, second = load_scene(write(tmp_path, dae(nodes))).objects
+    assert [item.id for item in (shelf, board, book, second)] == ["shelf", "board", "book", "shelf#2"]
     np.testing.assert_allclose(shelf.bounds_m, [[5, 0, 0], [6, 2, 0]], atol=1e-6)
-    np.testing.assert_allclose(board.bounds_m, [[5, 0, 0], [7, 4, 0]], atol=1e-6)
+    for item in (board, book):
+        np.testing.assert_allclose(item.bounds_m, [[5, 0, 0], [7, 4, 0]], atol=1e-6)
     np.testing.assert_allclose(second.bounds_m, [[-2, 0, 0], [0, 1, 0]], atol=1e-6)
     assert shelf.geometry is second.geometry
 
