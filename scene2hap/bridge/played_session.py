@@ -87,9 +87,10 @@ class PlayedSession:
         }
 
     def stats(self) -> dict[str, Any]:
-        """Return counters of the session and of its frames."""
+        """Return counters of the session, of its frames, and of its sink (None without one)."""
         frames = {"received": self.n_received, "skipped": self.n_skipped, "outdated": self.n_outdated}
-        return {**asdict(self.session.stats), "frames": frames}
+        sink = None if self._sink is None else {**asdict(self._sink.stats), **asdict(self.session.safety_stats)}
+        return {**asdict(self.session.stats), "frames": frames, "sink": sink}
 
     def take(self, frame: Frame) -> Gains | None:
         """Process a frame. Returns its gains, None if it is outdated.

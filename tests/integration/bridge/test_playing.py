@@ -465,6 +465,10 @@ def test_the_server_s_sink_falls_silent_when_its_player_is_killed(bridge: Bridge
                 break
         else:
             pytest.fail("the phone does not ring")
+        counted = client.ask("stats")["sink"]
+        assert counted["frames"] >= 480
+        assert (counted["connected"], counted["latency_s"], counted["watchdog_trips"]) == (True, None, 0)
+        assert other.ask("stats")["sink"] is None
         client.socket.socket.close()
         # The watchdog of a session fades out after 0.1 s; a busy machine may run it later.
         assert eventually(lambda: not any(block.any() for block in sink.blocks[-50:]))
