@@ -173,8 +173,10 @@ class PlayedSession:
         if self._sink is not None and has_clock(self._sink):
             return silent
         # A game's clock may restart, as at a new level. Sequences tell the order, so this frame begins a new clock.
-        is_first = before_s is None or time_s < before_s
-        lasts_s = session.config.control_period_s if is_first else min(time_s - before_s, LONGEST_FRAME_S)
+        if before_s is None or time_s < before_s:
+            lasts_s = session.config.control_period_s
+        else:
+            lasts_s = min(time_s - before_s, LONGEST_FRAME_S)
         n = self._frames.of(lasts_s)
         if self._sink is not None:
             self._sink.pull(n)  # type: ignore[attr-defined]  # no clock
