@@ -207,9 +207,10 @@ bool s2h_touch(s2h_client *client, s2h_handle hand, s2h_handle object, const flo
 /* Lift a hand. */
 void s2h_lift(s2h_client *client, s2h_handle hand);
 
-/* Send all poses and touches as they are now; call it once for each frame of the game. `time_s` must not go back.
- * Returns the frame's sequence, or 0 if it was not sent: there is no session now, or the network is slower than the
- * game. Nothing is lost then, since the next frame has the newest of everything. */
+/* Send all poses and touches as they are now; call it once for each frame of the game. A `time_s` that goes back
+ * begins a new clock, as when a level is loaded. Returns the frame's sequence, or 0 if it was not sent: there is no
+ * session now, or the network is slower than the game. Nothing is lost then, since the next frame has the newest of
+ * everything. */
 uint32_t s2h_send_frame(s2h_client *client, double time_s);
 
 /* Sequence of the last frame; after S2H_PLAYING, of the last frame that the server has taken. */
@@ -1377,7 +1378,6 @@ struct s2h_client {
   size_t poses_capacity;
   uint32_t sequence, heard_sequence, poses_sequence;
   bool has_moved;
-  double frame_time_s;
   int reported;
 
   /* Gains. */
@@ -2155,8 +2155,8 @@ uint32_t s2h_send_frame(s2h_client *c, double time_s) {
   size_t n_poses, n_touches;
   uint8_t *out;
   if (!s2h_is_playing(c) || order == NULL) return 0;
-  if (!s2h__is_finite(time_s) || time_s < c->frame_time_s) {
-    s2h__report_once(c, S2H__NOT_FINITE, "must be finite and not go back; the frame is left out.", "time_s");
+  if (!s2h__is_finite(time_s)) {
+    s2h__report_once(c, S2H__NOT_FINITE, "must be finite; the frame is left out.", "time_s");
     return 0;
   }
   /* A queue of frames would make all of them late: while the network takes nothing, the newest waits in the poses. */
@@ -2170,7 +2170,6 @@ uint32_t s2h_send_frame(s2h_client *c, double time_s) {
     c->has_moved = false;
     c->poses_sequence = c->sequence;
   }
-  c->frame_time_s = time_s;
   (void)s2h__flush(c);
   return c->sequence;
 }
@@ -2620,7 +2619,7 @@ s2h_client *s2h_create(const s2h_settings *settings) {
   memset(c, 0, sizeof *c);
   if (settings == NULL) settings = &none;
   c->socket = S2H__NO_SOCKET;
-  c->gains_s = c->frame_time_s = S2H__LONG_AGO_S;
+  c->gains_s = S2H__LONG_AGO_S;
   c->wait_s = S2H__FIRST_WAIT_S;
   c->max_receive = settings->max_receive_bytes ? settings->max_receive_bytes : (size_t)8 << 20;
   c->max_send = settings->max_send_bytes ? settings->max_send_bytes : (size_t)40 << 20;
@@ -2821,7 +2820,6 @@ static bool s2h__take_session(s2h_client *c, s2h_json message) {
   memcpy(c->key_text, key, sizeof key);
   c->sequence = s2h__json_uint(s2h_json_get(message, "sequence"), UINT32_MAX, 0);
   c->heard_sequence = c->poses_sequence = c->sequence;
-  c->frame_time_s = S2H__LONG_AGO_S; /* frames may be sent again */
   return true;
 }
 

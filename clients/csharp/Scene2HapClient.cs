@@ -80,7 +80,7 @@ namespace Scene2Hap
         readonly Dictionary<string, int> objectIndices = new Dictionary<string, int>();
         readonly Dictionary<string, int> handIndices = new Dictionary<string, int>();
         readonly Dictionary<string, int> sourceIndices = new Dictionary<string, int>();
-        double watchdogS = 0.1, lastTimeS;
+        double watchdogS = 0.1;
         uint sequence;
         float[] poses = new float[0];
         bool[] isPosed = new bool[0];
@@ -247,7 +247,7 @@ namespace Scene2Hap
             return AddTouch(HandIndex(hand), ObjectIndex(objectId), x, y, z);
         }
 
-        /// <summary>Send poses and touches. timeS is the game's clock, which must not go back [s].
+        /// <summary>Send poses and touches. timeS is the game's clock [s]; going back begins a new one.
         /// False if nothing is played, or if 64 frames wait for answers (EveryFrame): keep the frame then.</summary>
         public bool SendFrame(double timeS)
         {
@@ -263,13 +263,10 @@ namespace Scene2Hap
                 Report("no pose was set for " + objects[Array.IndexOf(isPosed, false)] + " and " + (nUnposed - 1)
                     + " more; call SetPose for each moving object. No poses are sent until then.");
             }
-            // The server drops frames whose time goes back.
-            double time = Math.Max(timeS, lastTimeS);
             int nPoses = nUnposed > 0 ? 0 : nMoving;
-            if (!connection.PostFrame(layout, key, sequence + 1, time, poses, nPoses, touches, nTouches))
+            if (!connection.PostFrame(layout, key, sequence + 1, timeS, poses, nPoses, touches, nTouches))
                 return false;
             sequence++;
-            lastTimeS = time;
             nTouches = 0;
             if (unansweredSince == 0)
                 unansweredSince = Stopwatch.GetTimestamp();
@@ -780,7 +777,6 @@ namespace Scene2Hap
                 return;
             }
             sequence = (uint)taken;
-            lastTimeS = double.NegativeInfinity;
             lastGains = 0;
             for (int i = 0; i < isPosed.Length; i++)
                 isPosed[i] = false;

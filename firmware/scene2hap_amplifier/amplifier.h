@@ -95,16 +95,21 @@ class Amplifier {
       tail_ = head_;
       flush_ = false;
     }
-    if (tail_ != head_) {
-      memcpy(held_, queue_[tail_], sizeof(held_));
-      tail_ = (tail_ + 1) % (kQueueFrames + 1);
+    const uint16_t tail = tail_;
+    const bool plays = tail != head_;
+    // Wherever this sample does not follow the last one, fade from the last one to it: a step would be felt as a knock.
+    if (plays != plays_ || (plays && is_after_gap_[tail])) {
+      if (!plays && !muted_) ++underruns_;
+      memcpy(held_, last_, sizeof(held_));
       ramp_ = kRampFrames;
-      memcpy(out, held_, sizeof(held_));
-      return;
+      plays_ = plays;
     }
-    if (ramp_ == kRampFrames && !muted_) ++underruns_;
     if (ramp_ > 0) --ramp_;
-    for (uint8_t c = 0; c < kChannels; ++c) out[c] = static_cast<int16_t>(int32_t{held_[c]} * ramp_ / kRampFrames);
+    for (uint8_t c = 0; c < kChannels; ++c) {
+      const int32_t sample = plays ? queue_[tail][c] : 0;
+      out[c] = last_[c] = static_cast<int16_t>(sample + (held_[c] - sample) * ramp_ / kRampFrames);
+    }
+    if (plays) tail_ = (tail + 1) % (kQueueFrames + 1);
   }
 
   bool muted() const { return muted_; }
@@ -145,7 +150,7 @@ class Amplifier {
   void greet() {
     greeted_ = true;
     heard_ = false;
-    flush_ = true;
+    mute();
     accepted_ = damaged_ = underruns_ = 0;
     uint8_t said[kHeader + 9 + kSum] = {1, kFormat, 0, 0, 0, 0, 9};
     put32(said + kHeader, kSampleRateHz);
@@ -158,16 +163,19 @@ class Amplifier {
   void pcm(uint16_t sequence, uint8_t channels, uint16_t count, uint32_t now_us) {
     const uint16_t ahead = static_cast<uint16_t>(sequence - sequence_);
     if ((heard_ && (ahead == 0 || ahead >= 0x8000)) || channels > kChannels) return;
+    is_gap_ = is_gap_ || (heard_ && ahead != 1);
     heard_ = true;
     sequence_ = sequence;
     echo_us_ = u32(run_ + 8);
     // While the interrupt has not emptied the queue yet, its free space is unknown. The host sends again.
-    if (count && !flush_ && queued() + count <= kQueueFrames) {
+    const bool is_taken = count && !flush_ && queued() + count <= kQueueFrames;
+    if (is_taken) {
       const uint8_t* p = run_ + kHeader;
       uint16_t head = head_;
       for (uint16_t n = 0; n < count; ++n) {
         for (uint8_t c = 0; c < kChannels; ++c) queue_[head][c] = 0;
         for (uint8_t c = 0; c < channels; ++c, p += 2) queue_[head][c] = static_cast<int16_t>(u16(p));
+        is_after_gap_[head] = is_gap_ && n == 0;
         head = (head + 1) % (kQueueFrames + 1);
       }
       head_ = head;
@@ -175,6 +183,7 @@ class Amplifier {
       fed_us_ = now_us;
       muted_ = false;
     }
+    if (count) is_gap_ = !is_taken;
     credit(now_us);
   }
 
@@ -216,7 +225,10 @@ class Amplifier {
   volatile uint16_t head_ = 0, tail_ = 0;
   volatile bool flush_ = false, muted_ = true;
   volatile uint32_t underruns_ = 0;
-  int16_t held_[kChannels] = {};
+  bool is_after_gap_[kQueueFrames + 1] = {};
+  bool is_gap_ = false;
+  int16_t held_[kChannels] = {}, last_[kChannels] = {};
+  bool plays_ = false;
   int32_t ramp_ = 0;
   bool greeted_ = false, heard_ = false;
   uint16_t sequence_ = 0;

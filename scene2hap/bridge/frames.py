@@ -66,9 +66,11 @@ class Gains(NamedTuple):
 
 def kind_of(message: bytes) -> int:
     """Return the kind of a binary message. Raises: BridgeError: not a message of this version."""
-    if len(message) < _PICTURE.size or message[:4] != MAGIC:
+    if message[:4] != MAGIC:
         begin = message[:8].hex(" ") or "empty"
         raise BridgeError(f"a binary message begins with {begin}; it must begin with {MAGIC.hex(' ')} (S2HB).")
+    if len(message) < _PICTURE.size:
+        raise BridgeError(f"a binary message has {len(message)} bytes; it must have at least {_PICTURE.size}.")
     if message[5] != VERSION:
         raise BridgeError(f"a binary message is of version {message[5]}; this bridge reads version {VERSION}.")
     return message[4]

@@ -191,7 +191,6 @@ class HostedSession:
         if self.player is not None:  # its connection is lost, but this was not noticed yet
             self.player.give_up()
         self.player = player
-        self.played.expect_clock()
         if not self.played.is_paused:
             await self.run(self.played.session.resume)
         self._tell_watchers({"type": "state", "session": self.id, "is": "playing"})

@@ -194,6 +194,7 @@ _REQUESTS: tuple[type[Request], ...] = (
 MODELS: dict[str, type[Request]] = {get_args(model.model_fields["type"].annotation)[0]: model for model in _REQUESTS}
 """The requests by their type."""
 _document: TypeAdapter[Document] = TypeAdapter(Document)
+_id: TypeAdapter[int] = TypeAdapter(int)
 
 
 def read_document(text: str) -> Document:
@@ -207,8 +208,10 @@ def read_document(text: str) -> Document:
 
 def request_id(document: Document) -> int | None:
     """Return the number that an answer carries as `re`, None if the message has none."""
-    found = document.get("id")
-    return found if type(found) is int else None
+    try:
+        return _id.validate_python(document.get("id"))  # as requests read it: some languages write 7 as 7.0
+    except ValidationError:
+        return None
 
 
 def parse_request(document: Document) -> Request:

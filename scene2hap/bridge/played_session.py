@@ -48,7 +48,6 @@ class PlayedSession:
         self.n_skipped: int = 0
         self.n_outdated: int = 0
         self.is_paused: bool = False
-        self._may_begin_clock = False
         self._last_impact: Impact | None = None
         if sink is not None:
             session.start()
@@ -88,9 +87,10 @@ class PlayedSession:
         }
 
     def stats(self) -> dict[str, Any]:
-        """Return counters of the session and of its frames."""
+        """Return counters of the session, of its frames, and of its sink (None without one)."""
         frames = {"received": self.n_received, "skipped": self.n_skipped, "outdated": self.n_outdated}
-        return {**asdict(self.session.stats), "frames": frames}
+        sink = None if self._sink is None else {**asdict(self._sink.stats), **asdict(self.session.safety_stats)}
+        return {**asdict(self.session.stats), "frames": frames, "sink": sink}
 
     def take(self, frame: Frame) -> Gains | None:
         """Process a frame. Returns its gains, None if it is outdated.
@@ -99,8 +99,7 @@ class PlayedSession:
         """
         layout = self._layouts.of(frame.layout)
         self.n_received += 1
-        goes_back = self._time_s is not None and frame.time_s < self._time_s
-        if layout is None or frame.sequence <= self.sequence or (goes_back and not self._may_begin_clock):
+        if layout is None or frame.sequence <= self.sequence:
             self.n_outdated += 1
             return None
         touches = self._touches(frame, layout)
@@ -110,9 +109,7 @@ class PlayedSession:
         except Exception:
             self._changes.forget()
             raise
-        self.sequence, self._may_begin_clock = frame.sequence, False
-        if goes_back:
-            self._time_s = None
+        self.sequence = frame.sequence
         intensities = self._go_on(frame.time_s)
         self._tell_impacts()
         return self._gains(found, frame.time_s, intensities)
@@ -129,10 +126,6 @@ class PlayedSession:
             np.zeros(shape[0], np.float32),
             np.zeros(shape, np.float32),
         )
-
-    def expect_clock(self) -> None:
-        """Let the next frame begin a new clock, since the game may have been restarted."""
-        self._may_begin_clock = True
 
     def drop(self) -> None:
         """Count a frame that a newer one has overtaken."""
@@ -176,11 +169,14 @@ class PlayedSession:
     def _go_on(self, time_s: float) -> NDArray[np.float32]:
         """Advance the session's clock. Returns the intensity at each hand until the next frame, (n_hands,)."""
         session, silent = self.session, np.zeros(len(self.session.hands), np.float32)
-        is_first, before_s = self._time_s is None, self._time_s or 0.0
-        self._time_s = time_s
+        before_s, self._time_s = self._time_s, time_s
         if self._sink is not None and has_clock(self._sink):
             return silent
-        lasts_s = session.config.control_period_s if is_first else min(time_s - before_s, LONGEST_FRAME_S)
+        # A game's clock may restart, as at a new level. Sequences tell the order, so this frame begins a new clock.
+        if before_s is None or time_s < before_s:
+            lasts_s = session.config.control_period_s
+        else:
+            lasts_s = min(time_s - before_s, LONGEST_FRAME_S)
         n = self._frames.of(lasts_s)
         if self._sink is not None:
             self._sink.pull(n)  # type: ignore[attr-defined]  # no clock

@@ -148,12 +148,28 @@ class Frames(BaseModel):
     outdated: Index
 
 
+class SinkCounters(BaseModel):
+    """Counters of the server's sink, and of the samples that its safety layer changed; sinks may have more."""
+
+    model_config: ClassVar[ConfigDict] = ConfigDict(extra="allow")
+
+    frames: Index
+    underruns: Index
+    connected: bool
+    reconnects: Index
+    dropped_frames: Index
+    faults: Index
+    latency_s: Number | None
+    watchdog_trips: Index
+
+
 class Counters(Answer):
     """Counters of the session; the answer to `stats`."""
 
     type: Literal["stats"]
     updates: Index
     frames: Frames
+    sink: SinkCounters | None
 
 
 class Impact(Answer):

@@ -91,21 +91,26 @@ class OscLine:
         self._sent_gains.clear()
 
     def _send_changes(self) -> None:
-        frame = self.latest
-        now = time.monotonic()
-        if now - self._repeated_s > REPEAT_S:
-            self._repeated_s = now
-            self._playing.clear()
-            self._sent_gains = dict.fromkeys(self._sent_gains, -1.0)
+        frame, sent = self.latest, self._sent_gains
         if frame is None:
             return
-        for clip, hand, gain in gains_of(frame, self._clips):
+        present = {(clip, hand): gain for clip, hand, gain in gains_of(frame, self._clips)}
+        # A source or a hand that was removed is in no later frame, and would vibrate at the receiver for ever.
+        gains = {**dict.fromkeys(sent, 0.0), **present}
+        now = time.monotonic()
+        is_repeat = now - self._repeated_s > REPEAT_S
+        if is_repeat:
+            self._repeated_s = now
+            self._playing.clear()
+        for (clip, hand), gain in gains.items():
             if gain > 0 and clip not in self._playing:
                 self._playing.add(clip)
                 self._datagrams.send(encode("/scene2hap/play", clip))
-            if gain != self._sent_gains.get((clip, hand), 0.0):
+            before = sent.get((clip, hand))
+            if gain != (before or 0.0) or (is_repeat and before is not None):
                 self._datagrams.send(encode("/scene2hap/gain", gain, clip, hand))
-            self._sent_gains[clip, hand] = gain
+        # A removed one is forgotten once its 0 has been repeated.
+        self._sent_gains = {key: gain for key, gain in gains.items() if key in present or sent[key] or not is_repeat}
 
 
 def gains_of(frame: GainFrame, clips: Mapping[str, str]) -> Iterator[tuple[str, int, float]]:

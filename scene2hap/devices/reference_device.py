@@ -29,7 +29,7 @@ from scene2hap.errors import DeviceError
 
 WATCHDOG_S = 0.05
 CREDIT_EVERY_S = 0.005
-MUTE_RAMP_S = 0.005
+RAMP_S = 0.005
 
 Samples = np.ndarray[tuple[int, int], np.dtype[np.int16]]
 """Samples (n_frames, n_channels) in their received form."""
@@ -61,15 +61,17 @@ class ReferenceDevice:
         self._on_samples = on_samples
         self._on_output = on_output
         self._parser = FrameParser()
-        self._queue: deque[Samples] = deque()
+        self._queue: deque[tuple[Samples, bool]] = deque()  # True after a gap
         self._queued = 0
         self._outgoing = bytearray()
         self._greeted = False
         self._sequence: int | None = None
         self._echo_us = 0
         self._fed_s = self._credit_s = self._clock_s = -np.inf
-        self._held = np.zeros(channels)
+        self._held = self._last = np.zeros(channels)
         self._ramp = 0
+        self._n_ramp = round(RAMP_S * sample_rate_hz)
+        self._plays = self._is_gap = False
 
     @property
     def damaged(self) -> int:
@@ -107,8 +109,8 @@ class ReferenceDevice:
     def _greet(self) -> None:
         self._greeted = True
         self._sequence = None
-        self._queue.clear()
-        self._queued = self.accepted_frames = self.underruns = self._parser.damaged = 0
+        self._mute()
+        self.accepted_frames = self.underruns = self._parser.damaged = 0
         self._outgoing += to_wire(self.format.to_frame())
 
     def _accept(self, frame: Frame, now_s: float) -> None:
@@ -117,11 +119,14 @@ class ReferenceDevice:
         if frame.count and (frame.format is not SampleFormat.INT16 or frame.channels > self.format.channels):
             return
         if self._sequence is not None:
-            self.lost += (frame.sequence - self._sequence - 1) % 2**16
+            n_lost = (frame.sequence - self._sequence - 1) % 2**16
+            self.lost += n_lost
+            self._is_gap |= n_lost > 0
         self._sequence = frame.sequence
         self._echo_us = frame.time_us
         if self._queued + frame.count > self.format.queue_frames:
             self.refused += 1
+            self._is_gap = True
         elif frame.count:
             self._store(np.frombuffer(frame.payload, dtype="<i2").reshape(frame.count, frame.channels), now_s)
         self._credit(now_s)
@@ -129,7 +134,8 @@ class ReferenceDevice:
     def _store(self, samples: Samples, now_s: float) -> None:
         self._fed_s = now_s
         self.muted = False
-        self._queue.append(samples)
+        self._queue.append((samples, self._is_gap))
+        self._is_gap = False
         self._queued += len(samples)
         self.accepted_frames += len(samples)
         if self._on_samples is not None:
@@ -155,25 +161,30 @@ class ReferenceDevice:
     def _play(self, n_frames: int) -> None:
         out = np.zeros((n_frames, self.format.channels), dtype=np.int16)
         done = 0
-        while done < n_frames and self._queue:
-            block = self._queue.popleft()
-            taken = min(len(block), n_frames - done)
-            out[done : done + taken, : block.shape[1]] = block[:taken]
-            if taken < len(block):
-                self._queue.appendleft(block[taken:])
-            done += taken
-        self._queued -= done
-        if done:
-            self._held = out[done - 1].astype(float)
-            self._ramp = n_ramp = round(MUTE_RAMP_S * self.format.sample_rate_hz)
-        if done < n_frames:
-            self.underruns += done > 0 and not self.muted
-            n_ramp = round(MUTE_RAMP_S * self.format.sample_rate_hz)
-            steps = np.clip(self._ramp - 1 - np.arange(n_frames - done), 0, None) / n_ramp
-            out[done:] = np.rint(steps[:, None] * self._held)
-            self._ramp = max(0, self._ramp - (n_frames - done))
+        while done < n_frames:
+            plays = bool(self._queue)
+            begin, done, is_gap = done, n_frames, False
+            if plays:
+                block, is_gap = self._queue.popleft()
+                done = min(n_frames, begin + len(block))
+                taken = done - begin
+                out[begin:done, : block.shape[1]] = block[:taken]
+                if taken < len(block):
+                    self._queue.appendleft((block[taken:], False))
+                self._queued -= taken
+            if plays != self._plays or is_gap:
+                self.underruns += not (plays or self.muted)
+                self._held, self._ramp, self._plays = self._last, self._n_ramp, plays
+            self._fade(out[begin:done])
         if self._on_output is not None and n_frames:
             self._on_output(out)
+
+    def _fade(self, out: Samples) -> None:
+        """Fade from the sample before a gap to samples after it, in place. A step would be felt as a knock."""
+        left = np.clip(self._ramp - 1 - np.arange(len(out)), 0, None)[:, None] / self._n_ramp
+        out[:] = np.rint(out + left * (self._held - out))
+        self._ramp = max(0, self._ramp - len(out))
+        self._last = out[-1].astype(float)
 
 
 class Wire(Protocol):

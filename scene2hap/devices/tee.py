@@ -34,6 +34,8 @@ from scene2hap.devices.whole_frames import Pulled, WholeFrames
 from scene2hap.errors import ConfigError, DeviceError
 
 MAX_LAG_S = 0.1
+FADE_S = 0.005
+"""Length of the cross-fade of a jump [s]."""
 LONGEST_STOP_S = 2 * MAX_LAG_S
 """Longest time for which `stop` waits for the slowest device [s]; a device that requests no samples is not awaited
 longer."""
@@ -180,6 +182,7 @@ class _Buffer:
         self._recorders = list(recorders)
         self._on_failed = on_failed
         self._lag = round(MAX_LAG_S * format.sample_rate_hz)
+        self._n_fade = max(1, round(FADE_S * format.sample_rate_hz))
         self._samples = np.zeros((0, len(format.channels)), dtype=np.float32)
         self._readers: list[_Reader] = []
         self.lock = threading.Condition()
@@ -190,7 +193,7 @@ class _Buffer:
 
     def reader(self) -> _Reader:
         """Return the reader of one more device."""
-        self._readers.append(_Reader(self))
+        self._readers.append(_Reader(self, self._n_fade))
         return self._readers[-1]
 
     @property
@@ -247,11 +250,14 @@ class _Buffer:
 
 
 class _Reader:
-    """The read position of one device in the buffer."""
+    """The read position of one device in the buffer. A jump cross-fades over `n_fade` frames, in several reads."""
 
-    def __init__(self, buffer: _Buffer) -> None:
+    def __init__(self, buffer: _Buffer, n_fade: int) -> None:
         self._buffer = buffer
         self.position = self.n_requested = 0
+        self._n_fade = n_fade
+        self._n_faded = n_fade
+        self._old: int | None = None
 
     def read(self, n_frames: int) -> Block:
         with self._buffer.lock:
@@ -259,16 +265,24 @@ class _Reader:
             self.n_requested = n_frames
             late, most = self._buffer.head - self.position, self._buffer.most_lag
             is_stored = late <= self._buffer.n_stored
-            if late <= most and is_stored:
-                block = self._buffer.read(self.position, n_frames)
-                self.position += n_frames
-                return block
-            old = self._buffer.read(self.position, n_frames) if late < 2 * most and is_stored else None
-            self.position = self._buffer.head
-            block = self._buffer.read(self.position, n_frames).copy()
+            if late > most or not is_stored:
+                self._old = self.position if late < 2 * most and is_stored else None
+                self.position, self._n_faded = self._buffer.head, 0
+            old = self._read_old(n_frames)
+            block = self._buffer.read(self.position, n_frames)
             self.position += n_frames
-        rising = (np.arange(1, n_frames + 1, dtype=np.float32) / np.float32(n_frames))[:, None]
-        block *= rising
-        if old is not None:
-            block += (1 - rising) * old
-        return block
+        if self._n_faded == self._n_fade:
+            return block
+        place = np.arange(self._n_faded + 1, self._n_faded + 1 + n_frames, dtype=np.float32)
+        rising: Block = np.minimum(place / np.float32(self._n_fade), np.float32(1.0))[:, None]
+        self._n_faded = min(self._n_faded + n_frames, self._n_fade)
+        mixed: Block = rising * block if old is None else rising * block + (1 - rising) * old
+        return mixed
+
+    def _read_old(self, n_frames: int) -> Block | None:
+        """Read on from before the jump, while it fades out; None if that is not stored."""
+        start = self._old
+        if self._n_faded == self._n_fade or start is None or self._buffer.head - start > self._buffer.n_stored:
+            return None
+        self._old = start + n_frames
+        return self._buffer.read(start, n_frames)

@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 
 from host import terminal_problem
+from scene2hap.devices.framing.frames import pcm, to_wire
+from scene2hap.devices.framing.link_messages import Hello
 from scene2hap.devices.protocol import SinkEvent, SinkFormat
 from scene2hap.devices.serial_amp import SerialAmplifierSink
+from scene2hap.devices.serial_port import SerialPort
 from serial_bench import eventually
 
 HOST = Path(__file__).parents[2] / "firmware" / "host" / "main.cpp"
@@ -28,6 +31,32 @@ def amplifier(tmp_path_factory: pytest.TempPathFactory) -> Path:
     flags = ["-std=c++17", "-O1", "-Wall", "-Wextra", "-Werror", "-fsanitize=undefined", "-fno-sanitize-recover"]
     subprocess.run([str(COMPILER), *flags, "-o", str(program), str(HOST)], check=True)
     return program
+
+
+def test_a_lost_frame_and_an_underrun_leave_no_step(amplifier: Path, tmp_path: Path) -> None:
+    heard = tmp_path / "heard.raw"
+    with heard.open("wb") as out:
+        program = subprocess.Popen([str(amplifier)], stdin=subprocess.PIPE, stdout=out, stderr=subprocess.PIPE)
+        assert program.stderr is not None
+        assert program.stdin is not None
+        try:
+            port = SerialPort(program.stderr.readline().decode().strip(), 921600)
+            port.write(to_wire(Hello(0, 2).to_frame()))
+            time.sleep(0.1)
+            # Frame 2 is lost, the queue runs dry after frame 3, and frame 4 comes late.
+            for sequence, level, pause_s in ((1, 0.9, 0.0), (3, -0.9, 0.045), (4, 0.9, 0.2)):
+                block = np.full((64, 2), level, dtype=np.float32)
+                port.write(to_wire(pcm(block, sequence=sequence)))
+                time.sleep(pause_s)
+            port.close()
+        finally:
+            program.stdin.close()
+            program.stderr.close()
+            assert program.wait(60) == 0
+    left = np.fromfile(heard, dtype="<i2").reshape(-1, 2)[:, 0] / 32767
+    assert left.max() > 0.89
+    assert left.min() < -0.89
+    assert np.abs(np.diff(left)).max() <= 1.8 / 20 + 1e-3  # 5 ms are 20 frames
 
 
 def test_firmware_plays_the_sent_samples(amplifier: Path, tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 import contextlib
 import re
+import shutil
 import socket
 import subprocess
 import sys
@@ -18,6 +19,7 @@ from pythonosc.dispatcher import Dispatcher
 from pythonosc.osc_server import OSCUDPServer
 
 from scene2hap import HapticSession, Touch
+from scene2hap.devices.framing.frames import FrameType, message, to_datagram
 from scene2hap.devices.protocol import SinkEvent, SinkFormat
 from scene2hap.devices.udp import UdpSink
 from scene2hap.errors import ConfigError
@@ -72,6 +74,72 @@ def test_the_receiver_of_the_page_gets_every_sample(listener: socket.socket) -> 
     first = sink.stats.dropped_frames + 400
     np.testing.assert_array_equal(after_fade[:, 0] * 2**20, np.arange(first, first + len(after_fade)))
     np.testing.assert_array_equal(after_fade[:, 1], -after_fade[:, 0])
+
+
+def stream(port: int, n_frames: int) -> None:
+    """Send a stream like a program that is killed: without MUTE, and with sequences from 1."""
+    with UdpSink("127.0.0.1", port) as sink:
+        sink._line.disconnect = sink._line._datagrams.close  # type: ignore[attr-defined,method-assign]
+        sink.open(SinkFormat(8000, ("left", "right")))
+        sink.start(lambda n: np.full((n, 2), 0.5, dtype=np.float32))
+        assert eventually(lambda: sink.stats.frames >= n_frames)
+
+
+def test_the_receiver_of_the_page_plays_a_restarted_program(listener: socket.socket) -> None:
+    got: list[int] = []
+    port = listener.getsockname()[1]
+    thread = threading.Thread(target=receiver_of_the_page(), args=(listener, lambda block, *_: got.append(len(block))))
+    thread.start()
+    try:
+        stream(port, 8000)  # 100 datagrams, so that the first 100 of a second stream would be old
+        before = len(got)
+        time.sleep(0.2)
+        stream(port, 2000)
+        assert eventually(lambda: len(got) >= before + 20)
+    finally:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+            sender.sendto(to_datagram(message(FrameType.MUTE)), ("127.0.0.1", port))
+        thread.join(60)
+
+
+@pytest.mark.skipif(not (shutil.which("mcs") and shutil.which("mono")), reason="no C#; apt-get install mono-mcs")
+def test_the_csharp_receiver_of_the_page_plays_a_restarted_program(tmp_path: Path, listener: socket.socket) -> None:
+    (code,) = re.findall(r"```csharp\n(.*?)```", PAGE.read_text("utf-8"), re.S)
+    trial = """
+    static class Trial {
+        static void Main(string[] arguments) {
+            using (var pcm = new HapticPcm(int.Parse(arguments[0]), 1)) {
+                Console.WriteLine("ready");
+                while (Console.ReadLine() != null)
+                    Console.WriteLine(pcm.Written + " " + pcm.SampleRate + " " + (int)(1000 * pcm.Ring[1000]));
+            }
+        }
+    }"""
+    port = listener.getsockname()[1]
+    listener.close()
+    (tmp_path / "trial.cs").write_text(code + trial)
+    command = ["mcs", "-langversion:6", "-warnaserror", f"-out:{tmp_path / 'trial.exe'}", str(tmp_path / "trial.cs")]
+    subprocess.run(command, check=True)
+    program = subprocess.Popen(
+        ["mono", str(tmp_path / "trial.exe"), str(port)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
+    assert program.stdin is not None
+    assert program.stdout is not None
+    written = []
+    try:
+        assert program.stdout.readline() == "ready\n"
+        for n_frames in (8000, 2000):
+            stream(port, n_frames)
+            time.sleep(0.2)
+            program.stdin.write("\n")
+            program.stdin.flush()
+            frames, rate, level = map(int, program.stdout.readline().split())
+            written.append(frames)
+            assert (rate, level) == (8000, 500)
+    finally:
+        program.communicate(timeout=60)
+    assert written[0] >= 7800
+    assert written[1] - written[0] >= 1800
 
 
 @pytest.mark.parametrize("end", ["", "raise RuntimeError", "os.kill(os.getpid(), signal.SIGINT)"])

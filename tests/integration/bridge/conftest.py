@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from c_client import HERE, Build, Driver, builder
 from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake
 from scene2hap.bridge import BridgeServer
 from scene2hap.testing.bridge_client import serving
@@ -39,3 +40,20 @@ def bridge(root: Path) -> Iterator[Callable[..., BridgeServer]]:
     """A function that starts bridges with the folder `root`."""
     with ExitStack() as stack:
         yield lambda **settings: stack.enter_context(serving(**{"root": root, **settings}))
+
+
+@pytest.fixture(scope="session")
+def build(tmp_path_factory: pytest.TempPathFactory) -> Build:
+    """A function that compiles a program with the client for C."""
+    return builder(tmp_path_factory.mktemp("c"))
+
+
+@pytest.fixture
+def driver(build: Build) -> Iterator[Driver]:
+    """The client for C, by commands."""
+    one = Driver(build(HERE / "driver.c", HERE / "client.c"))
+    try:
+        yield one
+        assert not one.end()
+    finally:
+        one.kill()

@@ -252,10 +252,10 @@ def test_every_frame_is_answered_on_request(bridge: Bridge) -> None:
 def test_old_frames_are_dropped_and_counted(bridge: Bridge) -> None:
     with Client(bridge().url) as client:
         client.play(bundle="desk.bundle", moving=[], frames="every")
-        for sequence, at_s in ((5, 1.0), (5, 1.1), (4, 1.2), (6, 0.5), (7, 1.3)):
+        for sequence, at_s in ((5, 1.0), (5, 1.1), (4, 1.2), (7, 1.3)):
             client.socket.send(client.frame(sequence, at_s, poses(), [ON_TABLE]))
         assert [client.next_gains().sequence for _ in range(2)] == [5, 7]
-        assert client.ask("stats")["frames"] == {"received": 5, "skipped": 0, "outdated": 3}
+        assert client.ask("stats")["frames"] == {"received": 4, "skipped": 0, "outdated": 2}
 
 
 def test_session_is_kept_across_connections(bridge: Bridge) -> None:
@@ -288,13 +288,18 @@ def test_session_is_kept_across_connections(bridge: Bridge) -> None:
             assert watcher.hear(lambda one: one["type"] == "state")["is"] == "playing"
 
 
-def test_a_time_before_0_goes_back_too(bridge: Bridge) -> None:
+@pytest.mark.parametrize("restarts_at_s", [0.0, -5.0])
+def test_a_clock_that_goes_back_begins_anew(bridge: Bridge, restarts_at_s: float) -> None:
+    """Clocks of engines restart, as at a new level; the hands must not fall silent until they have caught up."""
     with Client(bridge().url) as client:
         client.play(bundle="desk.bundle", moving=[], frames="every")
-        for sequence, at_s in ((1, 0.0), (2, -5.0), (3, 0.1)):
+        times_s = (1000.0, 1000.02, 1e9, restarts_at_s, restarts_at_s + 0.02)
+        for sequence, at_s in enumerate(times_s, 1):
             client.socket.send(client.frame(sequence, at_s, poses(), [ON_TABLE]))
-        assert [client.next_gains().sequence for _ in range(2)] == [1, 3]
-        assert client.ask("stats")["frames"]["outdated"] == 1
+            found = client.next_gains()
+            assert (found.sequence, found.time_s) == (sequence, at_s)
+            assert found.intensities[0] > 0.0
+        assert client.ask("stats")["frames"] == {"received": 5, "skipped": 0, "outdated": 0}
 
 
 def test_a_restarted_game_resumes_with_a_new_clock(bridge: Bridge) -> None:
@@ -307,12 +312,11 @@ def test_a_restarted_game_resumes_with_a_new_clock(bridge: Bridge) -> None:
         again.order = again.ask("resume", session=client.order["session"], key=client.order["key"])
         again.key = client.key
         again.next_gains()  # those of the last frame, again
-        for sequence, at_s in ((2, 0.5), (3, 0.6), (4, 0.1), (5, 0.7)):
+        for sequence, at_s in ((2, 0.5), (3, 0.6)):
             again.socket.send(again.frame(sequence, at_s, poses(), [ON_TABLE]))
-            if sequence != 4:
-                found = again.next_gains()
-                assert (found.sequence, found.time_s) == (sequence, at_s)
-                assert found.intensities[0] > 0.0
+            found = again.next_gains()
+            assert (found.sequence, found.time_s) == (sequence, at_s)
+            assert found.intensities[0] > 0.0
 
 
 def test_session_key_allows_takeover(bridge: Bridge) -> None:
@@ -461,6 +465,10 @@ def test_the_server_s_sink_falls_silent_when_its_player_is_killed(bridge: Bridge
                 break
         else:
             pytest.fail("the phone does not ring")
+        counted = client.ask("stats")["sink"]
+        assert counted["frames"] >= 480
+        assert (counted["connected"], counted["latency_s"], counted["watchdog_trips"]) == (True, None, 0)
+        assert other.ask("stats")["sink"] is None
         client.socket.socket.close()
         # The watchdog of a session fades out after 0.1 s; a busy machine may run it later.
         assert eventually(lambda: not any(block.any() for block in sink.blocks[-50:]))

@@ -74,6 +74,23 @@ def test_plays_and_gains_are_sent_when_they_change_and_all_again_each_second(mon
     assert sent_at(102.2) == {plays[1], gains[1], encode("/scene2hap/gain", 0.0, "radio", 0), *zeros}
 
 
+def test_a_removed_source_or_hand_falls_silent_at_the_receiver(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its 0 is sent at once and once more, in case the first is lost; then it costs no more messages."""
+    now_s = [100.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now_s[0])
+    wire = Wire()
+    line = OscLine(wire, {})
+    line.latest = Frame(np.full((2, 2, 1), 0.5, dtype=np.float32))
+    line.wanted(0.0)
+    line.latest = Frame(np.full((1, 1, 1), 0.5, dtype=np.float32), ("left",), ("radio",))
+    silenced = {encode("/scene2hap/gain", 0.0, *one) for one in (("kettle", 0), ("kettle", 1), ("radio", 1))}
+    kept = {encode("/scene2hap/play", "radio"), encode("/scene2hap/gain", 0.5, "radio", 0)}
+    for time_s, expected in ((100.1, silenced), (100.2, set()), (101.1, silenced | kept), (102.2, kept)):
+        now_s[0], wire.sent[:] = time_s, []
+        line.wanted(0.0)
+        assert set(wire.sent) == expected
+
+
 def test_samples_are_taken_at_the_session_s_rate(monkeypatch: pytest.MonkeyPatch) -> None:
     """They are discarded, but the session's clock, and so each ramp and impact, advances with them."""
     now_s, wire = [100.0], Wire()

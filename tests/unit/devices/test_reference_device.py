@@ -1,6 +1,7 @@
 """The reference device meets the requirements of docs/serial-protocol.md, "The device"; with a manual clock."""
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 
 from scene2hap.devices.framing.frames import FrameParser, FrameType, message, pcm, to_wire
@@ -52,7 +53,7 @@ def test_device_plays_accepted_frames_and_reports_its_queue() -> None:
     assert credit == Credit(9, GREETED | HEARD, 90, 10, 10, 0, 0)
     (credit,) = bench.credits(0.0085)[-1:]
     assert (credit.free_frames, credit.queued_frames) == (98, 2)
-    np.testing.assert_array_equal(bench.output[:8], 32767)
+    np.testing.assert_array_equal(bench.output[4:8], 32767)
 
 
 def test_the_watchdog_mutes_50_ms_after_the_last_frame() -> None:
@@ -63,13 +64,41 @@ def test_the_watchdog_mutes_50_ms_after_the_last_frame() -> None:
     assert bench.credits(0.055)[-1].flags & MUTED
     bench.credits(0.08)
     out = bench.output[:, 0].astype(int)
-    assert (out[:49] == 32767).all()
+    np.testing.assert_array_equal(out[:5], np.rint(32767 * np.array([1, 2, 3, 4, 5]) / 5))
+    assert (out[5:49] == 32767).all()
     # A ramp of 5 ms to zero instead of a step; queued samples are dropped.
     np.testing.assert_array_equal(out[49:55], np.rint(32767 * np.array([4, 3, 2, 1, 0, 0]) / 5))
     assert not out[54:].any()
     bench.say(bench.block(2), 0.081)
     assert not bench.credits(0.086)[-1].flags & MUTED
     assert bench.output[-1, 0] == 32767
+
+
+def test_a_lost_and_a_refused_frame_leave_no_step() -> None:
+    """Samples that do not follow each other meet in a fade of 5 ms; with one sample in 5 it is at most 2 / 5 a step."""
+    bench = Bench()
+    bench.say(HELLO + bench.block(1, 20) + bench.block(3, 20, -1.0) + bench.block(4, 100), 0.0)
+    bench.credits(0.0)
+    assert (bench.device.lost, bench.device.refused) == (1, 1)
+    bench.credits(0.01)
+    bench.say(bench.block(5, 20), 0.01)
+    for k in range(11, 61):
+        bench.credits(k * 0.001)
+    out = bench.output[:, 0] / 32767
+    assert np.abs(np.diff(out, prepend=0.0)).max() == pytest.approx(0.4, abs=1e-4)
+    np.testing.assert_allclose(out[25:40], -1.0)
+    np.testing.assert_allclose(out[45:59], 1.0)
+
+
+def test_an_underrun_is_counted_once_and_a_greeting_is_none() -> None:
+    bench = Bench()
+    bench.say(HELLO + bench.block(1, 10), 0.0)
+    for k in range(30):
+        bench.credits(k * 0.001)
+    assert bench.device.underruns == 1
+    bench.say(bench.block(2, 10), 0.03)
+    bench.say(HELLO, 0.031)
+    assert bench.credits(0.04)[-1].underruns == 0
 
 
 def test_mute_acts_immediately() -> None:
