@@ -43,6 +43,7 @@ class PlayedSession:
         self.use_layout([*session.poses] if moving is None else moving)
         self._frames = WholeFrames(session.config.sample_rate_hz)
         self._time_s: float | None = None
+        self._intensities: NDArray[np.float32] = np.zeros(0, np.float32)
         self.sequence: int = 0
         self.n_received: int = 0
         self.n_skipped: int = 0
@@ -181,11 +182,12 @@ class PlayedSession:
         if self._sink is not None:
             self._sink.pull(n)  # type: ignore[attr-defined]  # no clock
             return silent
-        if not n:
-            return silent
+        if not n:  # two frames at one time of a coarse clock
+            return self._intensities if len(self._intensities) == len(silent) else silent
         block = session.render(n)
         amplitudes: NDArray[np.float32] = np.sqrt(2.0 * (block * block).mean(axis=0))
-        return np.minimum(amplitudes, np.float32(1.0), out=amplitudes)
+        self._intensities = np.minimum(amplitudes, np.float32(1.0))
+        return self._intensities
 
     def _gains(self, found: HapticFrame, time_s: float, intensities: NDArray[np.float32]) -> Gains:
         gains = found.gains

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import pytest
@@ -27,10 +27,16 @@ def played() -> Iterator[PlayedSession]:
     made.close()
 
 
-def frame(played: PlayedSession, number: int, time_s: float, **moved: tuple[float, float, float]) -> Frame:
+def frame(
+    played: PlayedSession,
+    number: int,
+    time_s: float,
+    touches: Sequence[tuple[int, int, tuple[float, float, float]]] = (),
+    **moved: tuple[float, float, float],
+) -> Frame:
     at = [moved.get(name, played.session.poses[name].position_m) for name in MOVING]
     poses = np.array([[*point, 0.0, 0.0, 0.0, 1.0] for point in at])
-    return decode_frame(encode_frame(played.layout.number, bytes(8), number, time_s, poses, []))
+    return decode_frame(encode_frame(played.layout.number, bytes(8), number, time_s, poses, touches))
 
 
 def test_time_that_a_game_stood_still_is_left_out(played: PlayedSession) -> None:
@@ -58,3 +64,18 @@ def test_a_pose_of_a_failed_update_is_passed_on_with_the_next(
             played.take(frame(played, 1, 0.0, phone=(x + 0.1, y, z)))
     played.take(frame(played, 2, 0.02, phone=(x + 0.1, y, z)))
     assert played.session.poses["phone"].position_m == pytest.approx((x + 0.1, y, z))
+
+
+def test_two_frames_at_one_time_have_the_intensity_of_the_first() -> None:
+    """The clock of a game may be coarser than its frames."""
+    scene, bundle = table_with_two_phones()
+    with HapticSession(scene, bundle, hands=("left",)) as session:
+        session.wait_prepared()
+        played = PlayedSession(session, MOVING, None, lambda document: None)
+        touches = [(0, played.layout.objects.index("phone"), session.poses["phone"].position_m)]
+        intensities = [
+            float(played.take(frame(played, k, time_s, touches)).intensities[0])
+            for k, time_s in enumerate((0.0, 0.5, 0.5, 1.0), 1)
+        ]
+    assert intensities[1] > 0
+    assert intensities[2] == intensities[1]
