@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from scene2hap.audio.spectra.windows import hann
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ, threshold_db
+from scene2hap.common.arrays import Floats
 from scene2hap.common.plots import SOUND, THRESHOLD, TOUCH, add_legend, new_figure, plain, set_title
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
 
-Floats = NDArray[np.float64]
 Samples = NDArray[np.float32]
 
 RANGE_DB = 60.0

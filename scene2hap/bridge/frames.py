@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats32
 from scene2hap.errors import BridgeError
 
 MAGIC = b"S2HB"
@@ -26,8 +27,6 @@ _POSE_BYTES, _TOUCH_BYTES = 28, 20
 _TOUCH = np.dtype([("hand", "<u4"), ("object", "<u4"), ("point_m", "<f4", 3)])
 NO_KEY = bytes(8)
 
-Floats = NDArray[np.float32]
-
 
 class Frame(NamedTuple):
     """A frame of a game.
@@ -40,7 +39,7 @@ class Frame(NamedTuple):
     key: bytes
     sequence: int
     time_s: float
-    poses: Floats
+    poses: Floats32
     touches: NDArray[np.void]
 
     def after(self, skipped: Frame) -> Frame:
@@ -60,8 +59,8 @@ class Gains(NamedTuple):
     skipped: int
     time_s: float
     flags: int
-    intensities: Floats
-    gains: Floats
+    intensities: Floats32
+    gains: Floats32
 
 
 def kind_of(message: bytes) -> int:
@@ -101,7 +100,7 @@ def encode_frame(
     key: bytes,
     sequence: int,
     time_s: float,
-    poses: Floats,
+    poses: Floats32,
     touches: Sequence[tuple[int, int, tuple[float, float, float]]],
 ) -> bytes:
     """Encode a frame, as a client does."""

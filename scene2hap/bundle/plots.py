@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.audio.plots import draw_loop
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.common.plots import TOUCH, add_legend, new_figure, plain, set_note, set_title
 from scene2hap.errors import BundleError
 from scene2hap.scene.from_above import NOTHING, TopView
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
 
-Floats = NDArray[np.float64]
 MOST_SOURCES = 8
 """Most sources drawn by default: more do not fit on a page."""
 _MOST_LISTED = 24

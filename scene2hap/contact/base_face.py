@@ -14,9 +14,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.contact.geometry.polygons import Point, turned_outline
 from scene2hap.contact.geometry.spread import spread
-from scene2hap.contact.geometry.vectors import Floats, Rows, Triple, along, cross, highest, upright_frame
+from scene2hap.contact.geometry.vectors import Rows, Triple, along, cross, highest, upright_frame
 
 # How uneven a level face may be, as a share of the shape's size and at most (assumed).
 _UNEVEN, _UNEVEN_M = 1e-4, 2e-4

@@ -15,10 +15,11 @@ import math
 
 import numpy as np
 
+from scene2hap.common.arrays import Floats
 from scene2hap.contact.body import Body, box_in_frame, roles
 from scene2hap.contact.geometry.boxes import Boxes
 from scene2hap.contact.geometry.rays import first_hits
-from scene2hap.contact.geometry.vectors import Floats, Triple
+from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.rule import OUTSIDE_SHARE, SIDE_SHARE, play_reach_m, weight
 
 

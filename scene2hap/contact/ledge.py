@@ -17,9 +17,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.compiled import compiled
 from scene2hap.contact.geometry.boxes import Boxes
-from scene2hap.contact.geometry.vectors import AABB, Floats
+from scene2hap.contact.geometry.vectors import AABB
 
 Flat = tuple[float, float, float, float]
 """A rectangle: least u, least v, greatest u, greatest v."""

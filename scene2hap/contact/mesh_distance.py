@@ -22,13 +22,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from scene2hap.common.arrays import Floats
 from scene2hap.compiled import compiled
 from scene2hap.contact.body import Body
 from scene2hap.contact.geometry.boxes import Boxes, box_pairs, boxes_of
 from scene2hap.contact.geometry.spread import spread
 from scene2hap.contact.geometry.triangles import heights, meetings
 from scene2hap.contact.geometry.vectors import (
-    Floats,
     Rows,
     Triple,
     cross,

@@ -9,10 +9,11 @@ from __future__ import annotations
 import math
 from collections.abc import Container
 
+from scene2hap.common.arrays import Floats
 from scene2hap.contact.body import Body, roles
 from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.free_space import FreeSpace
-from scene2hap.contact.geometry.vectors import Floats, Triple
+from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.hinge import HingedBodies, pivot_m
 from scene2hap.contact.lazy import lazy
 from scene2hap.contact.level import Rest, rest_on

@@ -25,8 +25,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from scene2hap.common.arrays import Floats
 from scene2hap.contact.body import Body
-from scene2hap.contact.geometry.vectors import Floats
 from scene2hap.scene.hinges import HINGE_PLAY_M
 
 TOUCH_M = 0.004

@@ -10,12 +10,13 @@ from weakref import WeakValueDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.contact.base_face import BaseFace, base_face_of, feet_m, top_of, triples, uneven_m
 from scene2hap.contact.geometry.boxes import Boxes, boxes_of
 from scene2hap.contact.geometry.features import Features, features_of
 from scene2hap.contact.geometry.rays import first_hits
 from scene2hap.contact.geometry.triangle_tree import TriangleTree
-from scene2hap.contact.geometry.vectors import Floats, Triple
+from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.lazy import lazy
 from scene2hap.contact.ledge import Ledges, Upright
 from scene2hap.scene.shapes import TriMesh

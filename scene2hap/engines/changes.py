@@ -8,13 +8,13 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.scene.engines.motion import AT_REST_M, AT_REST_RAD, moved
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.session import HapticSession
 from scene2hap.session.arguments import require_pose
 
-Floats = NDArray[np.float64]
 _COS_AT_REST = math.cos(AT_REST_RAD / 2)
 _NOWHERE = Pose()  # placeholder for objects that only the engine has
 

@@ -14,8 +14,8 @@ from typing import Protocol, TypeVar, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from scene2hap.common.arrays import Complex, Floats
+
 AnyFloat = TypeVar("AnyFloat", np.float32, np.float64)
 
 Pairs = Callable[[Floats], Floats]

@@ -30,15 +30,13 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.materials import Material
 from scene2hap.propagation.bodies.rigid import is_too_thick
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw, contact_modulus_pa
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body
-
-Floats = NDArray[np.float64]
 
 RESTITUTION = 0.3
 """Coefficient of restitution of cups, books and tools on furniture; assumed (0 is clay, 0.9 a glass ball on steel)."""

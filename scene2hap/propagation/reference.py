@@ -15,6 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.haptics import Bands
 from scene2hap.propagation.exponential_plate import ExponentialPlate
@@ -36,8 +37,6 @@ NEAR_M = 0.1
 LARGEST = 1e3
 """Largest factor by which a source is raised or lowered [-], so that faint sources are not raised without limit."""
 _N_AROUND = 8
-
-Floats = NDArray[np.float64]
 
 
 @clear_construction

@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.scene.geometry import counted_up, joined
 from scene2hap.scene.objects import VERTICAL
 from scene2hap.scene.snapshot import SceneSnapshot
 
-Floats = NDArray[np.float64]
 NOTHING = -1
 _MOST_CELLS = 1_000_000
 """Cells under triangles that are computed at once: about 100 MB."""

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.audio.actuators import inverse_db
 from scene2hap.audio.clip import Samples
+from scene2hap.common.arrays import Floats
 from scene2hap.haptics import ActuatorProfile
 
 _LENGTH_S = 0.25
 """Length of the filter [s]: its resolution of 4 Hz is a quarter of the bandwidth of the sharpest built-in actuator."""
-
-Floats = NDArray[np.float64]
 
 
 class Equalizer:

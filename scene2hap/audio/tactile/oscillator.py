@@ -9,11 +9,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.compiled import compiled
-
-Floats = NDArray[np.float64]
 
 SIZE = 4096
 

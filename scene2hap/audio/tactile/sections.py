@@ -9,11 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.compiled import compiled
-
-Floats = NDArray[np.float64]
 
 VANISHED = 1e-200
 """A filter state below this cannot affect a float32 any more, but would slow the processor down as it decays."""

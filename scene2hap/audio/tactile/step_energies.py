@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.compiled import compiled
-
-Floats = NDArray[np.float64]
 
 
 class StepEnergies:

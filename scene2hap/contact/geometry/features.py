@@ -17,7 +17,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.contact.geometry.vectors import Floats, Indices, Marks, cross, dot
+from scene2hap.common.arrays import Floats
+from scene2hap.contact.geometry.vectors import Indices, Marks, cross, dot
 
 Features = NDArray[np.uint8]
 """Bits of each triangle (m,): bit k for its edge from corner k to the next, bit 3 + k for its corner k."""

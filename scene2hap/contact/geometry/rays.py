@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from scene2hap.common.arrays import Floats
 from scene2hap.contact.geometry.boxes import Boxes, box_pairs
-from scene2hap.contact.geometry.vectors import Floats, cross, dot
+from scene2hap.contact.geometry.vectors import cross, dot
 
 # A segment through the shared edge of two triangles must hit at least one of them; a segment along a face hits none.
 _RIM, _PARALLEL = 1e-9, 1e-12

@@ -15,10 +15,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from scene2hap.common.arrays import Floats
 from scene2hap.compiled import compiled
 from scene2hap.contact.geometry.boxes import Boxes
 from scene2hap.contact.geometry.features import Features
-from scene2hap.contact.geometry.vectors import Floats, Indices, Triple
+from scene2hap.contact.geometry.vectors import Indices, Triple
 
 
 class TriangleTree(NamedTuple):

@@ -23,8 +23,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from scene2hap.common.arrays import Floats
 from scene2hap.contact.geometry.features import Features
-from scene2hap.contact.geometry.vectors import Floats, Marks, cross, dot
+from scene2hap.contact.geometry.vectors import Marks, cross, dot
 
 # Squared sine below which edges count as parallel and corners as collinear, since the result would be rounding noise.
 _PARALLEL = 1e-12

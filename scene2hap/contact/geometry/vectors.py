@@ -11,7 +11,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from scene2hap.common.arrays import Floats
+
 Indices = NDArray[np.intp]
 Marks = NDArray[np.bool_]
 Triple = tuple[float, float, float]

@@ -19,6 +19,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Complex, Floats
 from scene2hap.compiled import compiled
 from scene2hap.propagation.bands.sampling import Band, Gains, Sampling
 from scene2hap.propagation.elastic_body import ResponseBasis
@@ -33,9 +34,6 @@ _AT_ONCE = 64
 """Random columns that are drawn at once, and cached."""
 _ROUNDING = 1e-13
 """Added to the diagonal of R^T R, since a source may need fewer shapes than all sources together."""
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 @compiled

@@ -17,7 +17,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
+
+from scene2hap.common.arrays import Complex, Floats
 
 N_NODES = 16
 FAR = 2.25
@@ -26,9 +27,6 @@ CLOSE = 1e-12
 """Largest relative error of the interpolation; where high losses move q away from the nodes, every mode is summed."""
 FEWEST = 64
 """Number of frequencies below which octaves cost more than they save."""
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)

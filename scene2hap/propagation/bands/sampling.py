@@ -22,6 +22,7 @@ from typing import NamedTuple, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.protocol import Excitation
@@ -43,7 +44,6 @@ Source: Israr, Tan, Reed, Frequency and amplitude discrimination along the kines
 (2006) 2789. Chosen among widths by `benchmarks/bands.py`.
 """
 
-Floats = NDArray[np.float64]
 Gains = Callable[[Floats], Floats]
 """Function from points on a body (n_points, 2) [m] to gains (n_points, n_own, n_bands) of some sources [-]."""
 

@@ -21,6 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Complex, Floats
 from scene2hap.propagation.bodies.legged_body import LeggedBody
 from scene2hap.propagation.bodies.rigid import RigidMotion
 from scene2hap.propagation.elastic_body import (
@@ -35,9 +36,6 @@ from scene2hap.propagation.modal.in_plane import InPlaneModes, in_plane_modes
 from scene2hap.propagation.plate import Plate
 
 _ASIDE = 1e-6  # Component along the normal up to which a direction does not bend the plate.
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 class Box:

@@ -17,11 +17,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Complex, Floats
 from scene2hap.common.byte_bounded_lru import ByteBoundedLru
 from scene2hap.propagation.elastic_body import AnyFloat, ElasticBody, HasResponseBasis, ResponseBasis
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 class LeggedBody:

@@ -12,10 +12,8 @@ Letters: Y [m/N] receptance, phi shape of a mode, r_m shape of a smooth term, s,
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from scene2hap.common.arrays import Complex, Floats
 
 MOST_PAIRS = 16_384
 """Pairs of joints up to which a body sums the terms of all pairs at all frequencies at once, which is faster."""

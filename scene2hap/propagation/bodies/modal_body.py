@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Complex, Floats
 from scene2hap.common.byte_bounded_lru import ByteBoundedLru
 from scene2hap.common.cached_while_used import cached_while_used
 from scene2hap.propagation.bands.octaves import OctaveSums
@@ -18,9 +19,6 @@ from scene2hap.propagation.elastic_body import AnyFloat
 from scene2hap.propagation.modal.modes import FINE, MARGIN, QUICK_BLOCK, Fineness, largest_block
 from scene2hap.propagation.modal.plate_terms import N_NODES, ContractedShapes, ForcedPlate, PlateTerms
 from scene2hap.propagation.plate import Plate
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 MOST_REMEMBERED = 65_536
 """Complex numbers of the largest receptance among contacts that is cached, 1 MB: objects that stay in place need not be

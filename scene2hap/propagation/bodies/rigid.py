@@ -17,13 +17,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Complex, Floats
 from scene2hap.propagation.elastic_body import AnyFloat, real_times
 from scene2hap.propagation.modal.modes import beam_hz, first_bending_hz
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.scene.surface.outline import Outline
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _THICK = 1 / 5
 """Largest thickness over a side for which thin-plate theory is valid along the side."""

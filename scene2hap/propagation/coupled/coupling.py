@@ -28,13 +28,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import Complex, Floats
 from scene2hap.common.counted import counted
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.coupled.elimination import Element, inverse, solve
 from scene2hap.propagation.elastic_body import ElasticBody
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 AT_ONCE_BYTES = 256_000_000
 """Memory of the receptances of all bodies that are in memory at once. A furnished room needs less for all frequencies;

@@ -18,16 +18,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Complex, Floats
 from scene2hap.compiled import compiled
 from scene2hap.propagation.coupled.elimination_order import Pattern, pattern_of
-
-Complex: TypeAlias = NDArray[np.complex128]
-Floats: TypeAlias = NDArray[np.float64]
 
 WORST_GROWTH = 1e4
 """Largest accepted entry of L, the factor by which a row is subtracted from another: it costs 4 digits of 15."""

@@ -19,13 +19,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Complex, Floats
 from scene2hap.propagation.bands.sampling import Sampling
 from scene2hap.propagation.coupled.coupling import JointForces
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.elastic_body import ElasticBody, felt_ports
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)

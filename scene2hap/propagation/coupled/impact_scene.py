@@ -20,6 +20,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Complex, Floats
 from scene2hap.common.blas_threads import one_blas_thread
 from scene2hap.contact.junction import Pair
 from scene2hap.haptics import Bands
@@ -27,9 +28,6 @@ from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.hand_load import loaded, stiffness_of
 from scene2hap.propagation.elastic_body import ElasticBody, felt_ports
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 IMPACT_BANDS = Bands((20.0, 40.0, 80.0, 160.0, 320.0, 480.0))
 """Bands of the components of bursts: from `impact.SLOWEST_HZ` to `impact.HIGHEST_MODE_HZ`, and a quarter of an octave

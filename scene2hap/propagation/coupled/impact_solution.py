@@ -12,14 +12,12 @@ from collections.abc import Collection, Iterator, Mapping, Sequence, Set
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Complex, Floats
 from scene2hap.contact.junction import Pair
 from scene2hap.propagation.coupled.coupling import Joint, JointSystem, ends_of, systems
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.impact_scene import IMPACT_BANDS, HeldBody, StruckScene
 from scene2hap.propagation.elastic_body import ElasticBody
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 MOST_HELD_BYTES = 128_000_000
 """Memory of all H of a scene: enough for an object of 120 contacts at a loss of 0.01, or for a furnished group."""

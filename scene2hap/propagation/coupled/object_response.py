@@ -7,10 +7,9 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.compiled import compiled
 from scene2hap.propagation.bands.sampling import Gains
-
-Floats = NDArray[np.float64]
 
 
 @compiled

@@ -20,6 +20,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Complex, Floats
 from scene2hap.propagation.bands.band_shapes import band_gains
 from scene2hap.propagation.bands.sampling import Gains, Sampling
 from scene2hap.propagation.coupled.coupling import Ends, Joint
@@ -27,15 +28,11 @@ from scene2hap.propagation.coupled.hand_load import HandLoad, LoadedGains
 from scene2hap.propagation.coupled.object_response import Magnitudes
 from scene2hap.propagation.elastic_body import ElasticBody, HasResponseBasis, SpatialBody, contracted, pieces
 
-Complex = NDArray[np.complex128]
-
 POINTS_AT_ONCE = 32
 """Points whose responses at many frequencies are in memory at once."""
 
 LOSSLESS = 1e-9
 """Net power into a body over the power exchanged at its joints, below which the net power is only rounding."""
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
+
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
-Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 Block = tuple[Floats, int, int]
 """Values (n_pieces, a, b, c, d), `first` and `other`: rows start at `first` and are counted (a, c), columns start at

@@ -17,7 +17,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+
+from scene2hap.common.arrays import Floats
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -37,8 +38,6 @@ _DEPENDENT = 1e-12
 """Least square of the length of an independent vector of a block, relative to the largest (eigenvalues of X^T A X)."""
 _EVEN = 1e-3
 """Ratio of the smallest to the largest square from which one pass makes a block orthonormal to 13 digits."""
-
-Floats = NDArray[np.float64]
 
 
 def largest(compliance: Callable[[Floats], Floats], masses: csr_array, least: float, expected: float) -> Floats:

@@ -16,6 +16,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.scene.surface.outline import Outline
 
 PIXELS = 5
@@ -24,7 +25,6 @@ the default resolution are no better, since the size of cells then determines th
 _WHOLE = 1 - 1e-12
 """Least share from which a pixel counts as wholly within, but for rounding."""
 
-Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
 

@@ -10,7 +10,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+
+from scene2hap.common.arrays import Floats
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -18,8 +19,6 @@ if TYPE_CHECKING:
 
 MOST_IN_BAND = 200_000
 """Numbers in a band up to which it is faster, because it fits into a processor's cache. Tuned."""
-
-Floats = NDArray[np.float64]
 
 
 class Factors(Protocol):

@@ -22,8 +22,8 @@ from dataclasses import dataclass
 from functools import lru_cache, partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.domain import warn_if_slow
 from scene2hap.propagation.lattice.bending_lattice import MOST_NODES, bending_lattice, n_nodes_of, of_size_one
@@ -32,8 +32,6 @@ from scene2hap.propagation.lattice.factors import Factors, positive_factors
 from scene2hap.propagation.lattice.lattice import Lattice
 from scene2hap.propagation.modal.modes import n_modes_to, n_rigid_motions, wavenumber_of_mode
 from scene2hap.propagation.plate import Plate
-
-Floats = NDArray[np.float64]
 
 MARGIN = 1.5
 """Modes are solved up to this many times the top frequency; the series takes over from there."""

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.propagation.lattice.assembly import Pattern, copies_of, sparse
 from scene2hap.propagation.lattice.cell_pieces import CellPieces, nodes_of, places
 from scene2hap.propagation.lattice.lattice import Lattice, rounding_k4
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
 _LEAST = 1e-9
 """Stiffness of a node, relative to the median of all, below which the node is left out."""
 
-Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.scene.surface.outline import Outline
 
 FINER = 3.0
@@ -24,8 +24,6 @@ GROWTH = 0.85
 PER_RADIUS = 2.4
 """Largest cell size along a curve that points into the plate, such as the rim of a round hole, over its radius, times
 the number of cells along the box's shorter side: 0.3 of the radius with 8 cells."""
-
-Floats = NDArray[np.float64]
 
 
 def outline_lines(outline: Outline, cells: tuple[int, int]) -> tuple[Floats, Floats]:

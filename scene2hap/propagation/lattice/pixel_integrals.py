@@ -10,12 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.propagation.lattice.cell_pieces import PIXELS, CellPieces
 from scene2hap.propagation.lattice.spline_axis import SplineAxis
 
-Floats = NDArray[np.float64]
 Term = tuple[float, tuple[str, str], tuple[str, str]]
 """A factor, two functions along x and two along y, by their names in `PixelProducts.slices`."""
 _PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(4)

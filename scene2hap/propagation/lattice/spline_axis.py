@@ -19,10 +19,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
+
 if TYPE_CHECKING:
     from scipy.sparse import csr_array, dia_array
 
-Floats = NDArray[np.float64]
 _HELD = {"F": 0, "S": 1, "C": 2}
 """Number of nodes that an edge holds: a support holds the deflection, a clamp also the slope."""
 

@@ -34,11 +34,11 @@ from typing import Any, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.compiled import compiled
 from scene2hap.propagation.modal.modes import PlateModes
 from scene2hap.propagation.plate import Plate
 
-Floats = NDArray[np.float64]
 _Extent = tuple[float, float, float, float]
 
 Number = TypeVar("Number", np.float64, np.complex128)

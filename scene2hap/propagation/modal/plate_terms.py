@@ -22,6 +22,7 @@ from typing import Generic
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Complex, Floats
 from scene2hap.compiled import compiled
 from scene2hap.propagation.bands.octaves import OctaveSums
 from scene2hap.propagation.elastic_body import AnyFloat, real_times
@@ -31,9 +32,6 @@ from scene2hap.propagation.modal.ritz import axis_basis, products
 from scene2hap.propagation.plate import Plate
 
 N_NODES = 4
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)

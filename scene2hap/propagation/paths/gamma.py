@@ -7,12 +7,10 @@ from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.propagation.bands.band_rms import BandRms
 from scene2hap.propagation.live import CostsByHand
-
-Floats = NDArray[np.float64]
 
 
 class Gamma(Protocol):

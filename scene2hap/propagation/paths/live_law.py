@@ -11,8 +11,8 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.contact.junction import Junction
 from scene2hap.propagation.live import CostsByHand, LiveField, TouchedPoint
 from scene2hap.propagation.paths.contact_paths import ContactPaths, Triple
@@ -21,7 +21,6 @@ from scene2hap.propagation.paths.gamma import Gamma, GammaAt, floored
 if TYPE_CHECKING:
     from scene2hap.contact.graph import ContactGraph
 
-Floats = NDArray[np.float64]
 
 _MOST_WEIGHTS = 1024
 

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from scene2hap.common.arrays import Floats32
 from scene2hap.scene.looks.appearance import FaceMaterial
 
-Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
 
 BACKGROUND_RGB = (190, 194, 200)
@@ -82,14 +82,14 @@ class Palette:
     `is_cutout` : the texture has holes, like leaves of plants.
     """
 
-    rgb: Floats
+    rgb: Floats32
     texels: NDArray[np.uint8]
     start: Ints
     width: Ints
     height: Ints
     is_cutout: NDArray[np.bool_]
 
-    def texel(self, material: Ints, uv: Floats) -> Ints:
+    def texel(self, material: Ints, uv: Floats32) -> Ints:
         """Return the index in `texels` of the texel nearest to uv (n, 2) for materials (n,)."""
         width, height = self.width.take(material), self.height.take(material)
         # Broken files contain NaN coordinates; any texel will do for them.
@@ -99,7 +99,7 @@ class Palette:
         where: Ints = self.start.take(material) + row * width + column
         return where
 
-    def pattern(self, material: Ints, uv: Floats) -> Floats:
+    def pattern(self, material: Ints, uv: Floats32) -> Floats32:
         """Return the textures' factors of the colours (n, 3), 0..1."""
         return self.texels.take(self.texel(material, uv), axis=0)[:, :3] * np.float32(1 / 255)
 
@@ -109,11 +109,11 @@ class Palette:
         return self.width * self.height > 1
 
 
-def light(normals: Floats, forward: NDArray[np.float64], up: NDArray[np.float64]) -> Floats:
+def light(normals: Floats32, forward: NDArray[np.float64], up: NDArray[np.float64]) -> Floats32:
     """Return the brightness (n,) of faces with unit normals (n, 3), looking along `forward`, 0..1."""
     along = normals @ forward.astype(np.float32)
     upward = -np.sign(along) * (normals @ up.astype(np.float32))
-    brightness: Floats = np.clip(AMBIENT + HEADLIGHT * np.abs(along) + SKYLIGHT * upward, 0.0, 1.0)
+    brightness: Floats32 = np.clip(AMBIENT + HEADLIGHT * np.abs(along) + SKYLIGHT * upward, 0.0, 1.0)
     return brightness
 
 

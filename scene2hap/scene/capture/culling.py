@@ -27,13 +27,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.scene.capture.protocol import Ids, Renderer, Selection
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.surroundings import containers, near, shells
 from scene2hap.scene.capture.views import Camera
 from scene2hap.scene.geometry import Vector, vector
 
-Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 _GRID_PX = 64

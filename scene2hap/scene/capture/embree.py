@@ -18,13 +18,13 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats32
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB, light
 from scene2hap.scene.capture.faces import planes, separates
 from scene2hap.scene.capture.protocol import Ids, Pixels, Selection
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import Camera
 
-Floats = NDArray[np.float32]
 Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 Levels = NDArray[np.uint8]
@@ -51,8 +51,8 @@ class _Hits:
     """Hits of rays: triangle (n,) of the `Stage`, -1 for none; depth (n,) [m]; weights (2, n) of corners 2 and 3."""
 
     triangle: Ints
-    depth: Floats
-    weights: Floats
+    depth: Floats32
+    weights: Floats32
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +62,7 @@ class _Tree:
     scene: Any
     numbers: Ints
 
-    def cast(self, origins: Floats, directions: Floats) -> _Hits:
+    def cast(self, origins: Floats32, directions: Floats32) -> _Hits:
         """Return the first hits of rays; depths are measured from their origins."""
         run = self.scene.run(origins, directions, output=True)
         return _Hits(self.numbers.take(run["primID"]), run["tfar"], np.stack((run["u"], run["v"])))
@@ -128,7 +128,7 @@ class EmbreeRenderer:
             is_covered[top:bottom, left:right] = True
         return np.flatnonzero(is_covered)
 
-    def _cast(self, camera: Camera, directions: Floats, selection: Selection) -> _Hits:
+    def _cast(self, camera: Camera, directions: Floats32, selection: Selection) -> _Hits:
         """Return the first hits on objects that the selection shows."""
         passed = self._passed(camera, selection)
         if len(selection.shown) <= _FEW:
@@ -139,7 +139,7 @@ class EmbreeRenderer:
         found = [self._first_hits(tree, camera, directions, passed) for tree in trees]
         return _nearest(found) if found else _nothing(len(directions))
 
-    def _first_hits(self, tree: _Tree, camera: Camera, directions: Floats, passed: Flags | None) -> _Hits:
+    def _first_hits(self, tree: _Tree, camera: Camera, directions: Floats32, passed: Flags | None) -> _Hits:
         """Return the first hits that are not passed."""
         eye = camera.eye_m.astype(np.float32)
         if len(self._origins) < len(directions) or (self._origins[:1] != eye).any():
@@ -202,7 +202,7 @@ class EmbreeRenderer:
         colors[patterned] = paint.take(triangle, axis=0) * pattern
         return colors
 
-    def _uv_at(self, triangle: Ints, weights: Floats) -> Floats:
+    def _uv_at(self, triangle: Ints, weights: Floats32) -> Floats32:
         # Column by column, since numpy is six times slower along rows of two.
         u, v = (
             corner.take(triangle) + weights[0] * to_second.take(triangle) + weights[1] * to_third.take(triangle)
@@ -247,7 +247,7 @@ class EmbreeRenderer:
         return planes(self._corners)
 
     @cached_property
-    def _normals(self) -> Floats:
+    def _normals(self) -> Floats32:
         return self._planes[:, :3].astype(np.float32)
 
 

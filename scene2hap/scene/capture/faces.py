@@ -7,10 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats, Floats32
 from scene2hap.scene.capture.views import Camera
 
-Floats32 = NDArray[np.float32]
-Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 # Assumed error of coordinates in single precision [px]. Triangles that are wrongly left out because of it are slivers.

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from panda3d import core
 from PIL import Image
 
+from scene2hap.common.arrays import Floats32
 from scene2hap.errors import BackendUnavailable
 from scene2hap.scene.capture.views import Camera
 
 Bytes = NDArray[np.uint8]
-Floats = NDArray[np.float32]
 
 # Depth range as shares of the scene's diagonal. The nearer the range begins, the better this rasteriser resolves depths
 # (tuned: from 0.01 on, a carpet 1 mm over the floor is lost).
@@ -78,7 +78,7 @@ class Screen:
     def draw(
         self,
         camera: Camera,
-        corners: Floats,
+        corners: Floats32,
         colors: Bytes,
         groups: Sequence[tuple[int, Any]],
         background: tuple[int, int, int],

@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats32
 from scene2hap.errors import SceneError
 from scene2hap.scene.capture.colour_table import Palette, PaletteBuilder, neutral
 from scene2hap.scene.capture.views import axes_of
@@ -18,7 +19,6 @@ from scene2hap.scene.looks.appearance import Appearance
 from scene2hap.scene.objects import SceneObject, UpAxis
 from scene2hap.scene.snapshot import SceneSnapshot
 
-Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
 Vector = NDArray[np.float64]
 
@@ -35,9 +35,9 @@ class Actor:
     """
 
     id: str
-    triangles_m: Floats
+    triangles_m: Floats32
     material: Ints
-    uv: Floats
+    uv: Floats32
     digest: str
 
     @cached_property
@@ -142,7 +142,7 @@ def _actor(item: SceneObject, origin: Vector, inset_m: float, palette: PaletteBu
     return Actor(item.id, corners[mesh.faces], material, uv, digest)
 
 
-def _drawn_in(corners_m: Vector, box_m: Vector, inset_m: float) -> Floats:
+def _drawn_in(corners_m: Vector, box_m: Vector, inset_m: float) -> Floats32:
     """Scale corners (n, 3) about their box's middle, so that its faces move in by the inset, at most a tenth of its
     size.
 
@@ -154,7 +154,7 @@ def _drawn_in(corners_m: Vector, box_m: Vector, inset_m: float) -> Floats:
         return corners_m.astype(np.float32)
     middle, size = (low + high) / 2, high - low
     factor = 1 - 2 * np.minimum(np.divide(inset_m, size, out=np.zeros(3), where=size > 0), 0.1)
-    drawn_in: Floats = (middle + (corners_m - middle) * factor).astype(np.float32)
+    drawn_in: Floats32 = (middle + (corners_m - middle) * factor).astype(np.float32)
     return drawn_in
 
 

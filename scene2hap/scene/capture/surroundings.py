@@ -9,15 +9,12 @@ from collections.abc import Hashable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats, Floats32
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.copies import copy_key
 from scene2hap.scene.geometry import distances, heights_at
 from scene2hap.scene.objects import VERTICAL, SceneObject
-
-Floats = NDArray[np.float64]
-Floats32 = NDArray[np.float32]
 
 # Least extent of a shell, greatest thickness of a wall by its height, and greatest distance of a wall from the scene's
 # boundary. The first and last are shares of the scene's extent (assumed).

@@ -14,10 +14,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.scene.geometry import bounds_of
 from scene2hap.scene.objects import UpAxis
-
-Floats = NDArray[np.float64]
 
 # Distance from eye to centre in radii of the bounding sphere. It is large enough for little distortion in the wider
 # context images, and small enough for a sense of depth (assumed).

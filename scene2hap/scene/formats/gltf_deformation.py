@@ -13,16 +13,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.formats.gltf_accessors import vectors
 from scene2hap.scene.formats.gltf_container import GltfFile, Json, mapping, natural
 from scene2hap.scene.tree import Matrix
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

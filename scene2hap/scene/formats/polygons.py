@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.scene.geometry import cross_2d
 
 MAX_EAR_CORNERS = 512
@@ -21,7 +22,6 @@ _MAX_EAR_WORK = 4_000_000
 _ROUNDING = 1e-7
 
 Ints = NDArray[np.int64]
-Floats = NDArray[np.float64]
 
 
 def triangulated(points: Floats, counts: Ints, indices: Ints) -> tuple[Ints, Ints]:

@@ -8,9 +8,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
-
-Floats = NDArray[np.float64]
 
 # Steps of a channel. They are tried in turn until at most this many materials are left (assumed: a picture seldom shows
 # more). After the last step there may be more.

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.scene.shapes import TriMesh
-
-Floats = NDArray[np.float64]
 
 _FACES = 12
 # Tolerance of a corner's position, as a share of the longest edge.

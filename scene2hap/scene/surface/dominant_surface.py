@@ -30,6 +30,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.scene.geometry import SAME_PLACE, welded
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import DominantSurface, SurfaceFlag, TriMesh
@@ -40,7 +41,6 @@ from scene2hap.scene.surface.rays import Hits, cast_grid, cut, first_solids, med
 from scene2hap.scene.surface.section import section_outline
 from scene2hap.scene.surface.winding import edge_keys, well_wound
 
-Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
@@ -332,8 +332,7 @@ def _spans(segments: Floats, at_least: float) -> tuple[Floats, Floats] | None:
 
 
 def _box(points: Floats, axes: Floats, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
-    """Return the box around points (3, n) as a plate, as for meshes that no ray meets: needles, triangles without area.
-    """
+    """Return the box around points (3, n) as a plate, as for meshes that no ray meets, such as needles."""
     own_to_plate = _facing(axes, int(np.argmin(np.ptp(axes @ points, axis=1))), points)
     placed = own_to_plate @ points
     size, middle = np.ptp(placed, axis=1), (placed.min(axis=1) + placed.max(axis=1)) / 2

@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import SceneError
 from scene2hap.scene.geometry import counted_up
 
-Floats = NDArray[np.float64]
 Ring = tuple[tuple[float, float], ...]
 
 MOST_CORNERS = 4096

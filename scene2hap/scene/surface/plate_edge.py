@@ -12,7 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from scene2hap.common.arrays import Floats
+
 Bools = NDArray[np.bool_]
 
 # Tuned on real scenes, with the labels in tests/data/dominant_surfaces.csv unchanged.

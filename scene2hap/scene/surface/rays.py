@@ -16,9 +16,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.scene.geometry import counted_up
 
-Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 # Pairs of triangle and ray that are tested at once. This bounds memory to about 100 MB (assumed).

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.scene.geometry import SAME_PLACE, welded
 from scene2hap.scene.surface.outline import MOST_CORNERS, Outline
 from scene2hap.scene.surface.rays import cut
 
-Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
 _TOLERANCE = 1e-3  # of the size: corners whose removal changes the ring by less are left out

@@ -21,6 +21,7 @@ import numpy as np
 from scene2hap.audio.actuators import is_flat
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB, drive_db, nearest_felt_hz
 from scene2hap.audio.threshold import NOTICED_DB, TACTILE_RANGE_HZ, threshold_db
+from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import clear_attributes
 from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.live import PointField, TouchedPoint
@@ -29,7 +30,7 @@ from scene2hap.scene.pose import Pose
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.hand_gains import Felt
-from scene2hap.session.impacts.gains import Floats, Point, struck_later, struck_live
+from scene2hap.session.impacts.gains import Point, struck_later, struck_live
 from scene2hap.session.impacts.landings import Landings
 from scene2hap.session.mix.playback import Playback
 from scene2hap.session.scene_state import SceneState

@@ -13,15 +13,14 @@ from dataclasses import replace
 from typing import cast
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.live import PointField, TouchedPoint
 from scene2hap.propagation.protocol import Excitation, PropagationModel, follows_poses
 from scene2hap.scene.objects import Contact
 from scene2hap.session.scene_state import SceneState
 
-Floats = NDArray[np.float64]
 Point = tuple[float, float, float]
 
 _STRIKER = "\0striker"

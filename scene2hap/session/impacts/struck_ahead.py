@@ -14,12 +14,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from scene2hap.common.arrays import Floats
 from scene2hap.propagation.coupled.impact_scene import StruckScene
 from scene2hap.propagation.coupled.substructuring import prepare_struck
 from scene2hap.propagation.live import TouchedPoint
 from scene2hap.propagation.protocol import Body, CoupledModel
 from scene2hap.session.deadline import Deadline
-from scene2hap.session.impacts.gains import Floats, Point, at_least_itself
+from scene2hap.session.impacts.gains import Point, at_least_itself
 from scene2hap.session.scene_state import SceneState
 
 AT_REST_S, EVERY_S = 0.05, 1.0

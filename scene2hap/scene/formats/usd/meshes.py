@@ -17,12 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import UsdGeom
 
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits, solids
 from scene2hap.scene.formats.polygons import triangulated
 from scene2hap.scene.formats.usd.values import floats, integers, positive, value
 
-Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 # Order of the coordinates of a shape about z, for each axis that the shape may have.
