@@ -45,10 +45,14 @@ def read_manifest(folder: Path) -> dict[str, Any]:
 def require_folder(folder: Path) -> None:
     """Raise a BundleIncomplete if a path cannot be a bundle, because nothing or a file is there."""
     if not os.path.lexists(folder):
-        near = checks.near_files(folder) or "`bake(scene).save(folder)` writes one."
+        near = checks.near_files(folder) or "`scene2hap bake`, or `bake(scene).save(folder)`, writes one."
         raise BundleIncomplete(f"there is no folder {str(folder)!r}. {near}")
     if os.path.isfile(folder):
-        how = "give its folder" if folder.name == MANIFEST else "`bake(scene)` makes a bundle of a scene"
+        how = (
+            "give its folder"
+            if folder.name == MANIFEST
+            else "`scene2hap bake`, or `bake(scene)`, makes a bundle of a scene"
+        )
         raise BundleIncomplete(f"{str(folder)!r} is a file; a bundle is a folder: {how}.")
 
 

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import re
+import sys
 import warnings
 from collections.abc import Mapping, Sequence
 from typing import Any, NoReturn
@@ -106,6 +108,20 @@ class _Parser(argparse.ArgumentParser):
     Arguments in messages are escaped as `Console` escapes names, since a file name may hold any character.
     """
 
+    _given: Sequence[str] = ()
+
+    def __init__(self, *arguments: Any, **settings: Any) -> None:
+        super().__init__(*arguments, **settings)
+        # argparse takes -6 for a number, but -1e1 and -inf for options; some versions know more numbers than others.
+        self._negative_number_matcher = re.compile(
+            r"-(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$|-(inf|infinity|nan)$", re.IGNORECASE
+        )
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Parse as argparse does, and keep the arguments for `error`."""
+        self._given = tuple(sys.argv[1:] if args is None else args)
+        return super().parse_known_args(args, namespace)
+
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         try:
             super()._check_value(action, value)
@@ -119,7 +135,22 @@ class _Parser(argparse.ArgumentParser):
         for action in self._actions:
             if isinstance(action.choices, Mapping) and message.endswith(str(action.metavar)):
                 message = f"{message}, one of {', '.join(action.choices)}"
-        super().error(message)
+        super().error(f"{message}{self._hint()}")
+
+    def _hint(self) -> str:
+        """Return how to write the first argument that may be a name but looks like an option."""
+        for text in self._given:
+            if text == "--":
+                break
+            is_option = text.startswith("--") or text[:2] in self._option_string_actions
+            if (
+                len(text) > 1
+                and text.startswith("-")
+                and not is_option
+                and not self._negative_number_matcher.match(text)
+            ):
+                return f". {text!r} is read as an option; write -- before names, or ./{text} for a file"
+        return ""
 
     def _print_message(self, message: str, file: Any = None) -> None:
         # Some versions of argparse raise this error and others ignore it; `Console.close` reports failed output.

@@ -10,10 +10,14 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 
+import rich.box
 import rich.console
 import rich.markup
+from rich.cells import cell_len
+from rich.padding import Padding
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
+from rich.text import Text
 
 from scene2hap.cli import streams
 from scene2hap.common.printable import aligned, printable, printable_json
@@ -38,6 +42,27 @@ _LAID_OUT = 1000
 def _one_line(text: str) -> str:
     left = len(text) - _LONGEST
     return _safe(text if left <= 0 else f"{text[:_LONGEST]} ... ({left} characters more)")
+
+
+def _widths(rows: Sequence[Sequence[str]], width: int, border: int, gap: int) -> list[int] | None:
+    """Return the width of each column, or None if the longest words of all columns do not fit into `width` together.
+
+    Words are never cut, since ids are typed again. Only words of more than half the width are broken into lines.
+    """
+    columns = list(zip(*rows, strict=True))
+    left = width - border - gap * (len(columns) - 1)
+    whole = [max(map(cell_len, column)) for column in columns]
+    found = [
+        min(max(cell_len(word) for cell in column for word in cell.split() or [""]), width // 2) for column in columns
+    ]
+    left -= sum(found)
+    if left < 0:
+        return None
+    # The columns that lack least come first, so that as many as possible are not wrapped at all.
+    for n_more, i in enumerate(sorted(range(len(columns)), key=lambda i: whole[i] - found[i])):
+        more = min(whole[i] - found[i], left // (len(columns) - n_more))
+        found[i], left = found[i] + more, left - more
+    return found
 
 
 class _Output(rich.console.Console):
@@ -77,13 +102,42 @@ class Console:
         if len(rows) > _LAID_OUT:
             self.say("\n".join((title, *aligned(columns, rows))))
             return
-        table = Table(title=_safe(title), title_justify="left", title_style="bold")
-        for column in columns:
-            table.add_column(_safe(column.removeprefix(">")), justify="right" if column.startswith(">") else "left")
+        with self._lasting():
+            self._fitted(title, columns, rows)
+
+    def _fitted(self, title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+        """Print a table with borders, a narrower one without, or a paragraph for each row: the first that fits."""
+        names = [column.removeprefix(">") for column in columns]
+        cells = [[printable(cell) for cell in row] for row in (names, *rows)]
+        bordered = _widths(cells, self._out.width, 4, 3)
+        widths = bordered or _widths(cells, self._out.width, 0, 2)
+        if widths is None:
+            self._paragraphs(title, cells)
+            return
+        table = Table(
+            title=_safe(title),
+            title_justify="left",
+            title_style="bold",
+            box=rich.box.HEAVY_HEAD if bordered else None,
+            pad_edge=bool(bordered),
+            padding=(0, 1) if bordered else (0, 2, 0, 0),
+        )
+        for column, name, width in zip(columns, names, widths, strict=True):
+            table.add_column(
+                _safe(name), justify="right" if column.startswith(">") else "left", width=width, overflow="fold"
+            )
         for row in rows:
             table.add_row(*map(_safe, row))
-        with self._lasting():
-            self._out.print(table)
+        self._out.print(table)
+
+    def _paragraphs(self, title: str, cells: Sequence[Sequence[str]]) -> None:
+        """Print a paragraph for each row below the first, which has the names of the columns."""
+        self._out.print(Text(printable(title), "bold"))
+        for first, *others in cells[1:]:
+            facts = "; ".join(f"{name}: {cell}" for name, cell in zip(cells[0][1:], others, strict=True) if cell)
+            self._out.print(Text(first, "bold"), soft_wrap=True)
+            if facts:
+                self._out.print(Padding(Text(facts), (0, 0, 0, 2), expand=False))
 
     def outcome(self, outcome: object) -> None:
         """Print JSON on standard output, even if quiet. Letters that the encoding lacks are escaped."""

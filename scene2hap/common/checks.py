@@ -79,8 +79,8 @@ _LONGEST_COMPARED = 256
 def did_you_mean(wanted: object, known: Iterable[str], otherwise: str = "") -> str:
     """Return a sentence with the known names that are most similar to `wanted`, or `otherwise` if there are none.
 
-    Case, blanks, dashes and underscores are ignored, and a common beginning counts as similar. So "ModalPlate" finds
-    "modal_plate", and "gain" finds "gain_db".
+    Case, blanks, dashes and underscores are ignored, and a common beginning counts as similar, as does a part of a
+    name. So "ModalPlate" finds "modal_plate", "gain" finds "gain_db", and "fan" finds "handheld_fan".
     """
     from difflib import get_close_matches
 
@@ -89,7 +89,9 @@ def did_you_mean(wanted: object, known: Iterable[str], otherwise: str = "") -> s
         spelled.setdefault(_folded(one), one)
     name = _folded(wanted) if isinstance(wanted, str) else ""
     begun = [key for key in spelled if min(len(name), len(key)) >= 3 and (key.startswith(name) or name.startswith(key))]
-    near = [name] if name in spelled else list(dict.fromkeys([*get_close_matches(name, spelled, n=3), *begun]))[:3]
+    parts = [key for key in spelled if len(name) >= 3 and name in key]
+    alike = dict.fromkeys([*get_close_matches(name, spelled, n=3), *begun, *parts])
+    near = [name] if name in spelled else list(alike)[:3]
     return f"Did you mean {' or '.join(repr(spelled[key]) for key in near)}?" if near else otherwise
 
 

@@ -59,13 +59,13 @@ class Settings(BaseModel):
         """Return a configuration from settings or defaults, overridden by `changes`; changes of None are ignored.
 
         A path names a TOML or JSON file; its table `of_what` is read.
-        Raises: ConfigError: an unknown setting, one out of bounds, or a file that cannot be read.
+        Raises: ConfigError: an unknown setting, one out of bounds, or a file that cannot be read or lacks this table.
         """
         wanted = {name: value for name, value in changes.items() if value is not None}
         if isinstance(settings, cls) and not wanted:
             return settings
         if isinstance(settings, os.PathLike) or (isinstance(settings, str) and Path(settings).suffix in _SUFFIXES):
-            settings = read_settings(str(settings), cls.of_what)
+            settings = read_settings(str(settings), cls.of_what, required=True)
         if isinstance(settings, Settings) and issubclass(cls, type(settings)):
             settings = {name: getattr(settings, name) for name in settings.model_fields_set}
         if settings is not None and not isinstance(settings, Mapping):
@@ -85,7 +85,9 @@ class Settings(BaseModel):
             known = ", ".join(cls.model_fields)
             near = checks.did_you_mean(problem.location[0], cls.model_fields, f"There are {known}.")
             return f"there is no {cls.of_what} setting {problem.location[0]!r}. {near}"
-        value = checks.shown(problem.value, problem.location[-1] if problem.location else "")
+        if not problem.location:  # the settings do not fit each other; none of them is the wrong one
+            return f"{cls.of_what} settings: {problem.reason}."
+        value = checks.shown(problem.value, problem.location[-1])
         got = "" if problem.kind == "value_error" and value in problem.reason else f", got {value}"
         said = f"{cls.of_what} setting {problem.place}: {problem.reason}{got}"
         return said if said.endswith("?") else f"{said}."
@@ -99,10 +101,10 @@ SECTIONS = ("bake", "bridge", "session", "user")
 """The tables that a file of settings may have."""
 
 
-def read_settings(path: str | None, section: str) -> dict[str, Any]:
+def read_settings(path: str | None, section: str, *, required: bool = False) -> dict[str, Any]:
     """Read one of `SECTIONS` from a settings file; empty without a file.
 
-    Raises: ConfigError: the file cannot be read, or has other content.
+    Raises: ConfigError: the file cannot be read, has other content, or lacks a required section.
     """
     if path is None:
         return {}
@@ -124,6 +126,8 @@ def read_settings(path: str | None, section: str) -> dict[str, Any]:
             f"settings {path}: {stray[0]!r} is outside of the tables {', '.join(SECTIONS)}; write it into one of "
             f"them, as [{section}] in TOML."
         )
+    if required and section not in document:  # otherwise, say, the limits in a person's profile would be ignored
+        raise ConfigError(f"settings {path}: there is no table {section!r}; write [{section}] in TOML.")
     found = document.get(section, {})
     if not isinstance(found, dict):
         raise ConfigError(f"settings {path}: {section!r} must be a table of settings.")

@@ -8,6 +8,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 from scene2hap.bundle.corrections import parsed_corrections
+from scene2hap.common import checks
 from scene2hap.common.printable import parse_json
 from scene2hap.common.text_files import write_whole
 from scene2hap.errors import ConfigError, Scene2HapError
@@ -76,6 +77,7 @@ class ReportServer:
             def log_message(self, format: str, *args: object) -> None:
                 pass
 
+        checks.number("port", port, "-", at_least=0, at_most=65535, error=ConfigError)
         try:
             self._http = ThreadingHTTPServer((_HOST, port), Handler)
         except OSError as cause:

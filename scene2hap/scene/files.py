@@ -96,8 +96,9 @@ def check_file(path: Path) -> None:
             raise SceneError(f"there is no file {str(path)!r}. {near}")
         if (path / "bundle.json").exists():
             raise SceneError(
-                f"{str(path)!r} is the folder of a bundle, not a scene file; `HapticBundle.load` reads it, "
-                "its scene is its .snapshot, and `rebake` bakes it again."
+                f"{str(path)!r} is the folder of a bundle, not a scene file. Give the file it was baked "
+                "from. Without it, `scene2hap edit BUNDLE rebake`, or `rebake(HapticBundle.load(path))`, bakes again; "
+                "the scene is the bundle's .snapshot."
             )
         if not path.is_file():
             raise SceneError(f"{str(path)!r} is not a file; give the path of the scene file itself, not its folder.")

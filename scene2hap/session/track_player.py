@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,12 +15,13 @@ from numpy.typing import NDArray
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
 from scene2hap.devices.protocol import Block
-from scene2hap.errors import SessionError
+from scene2hap.errors import Scene2HapError, SessionError
 from scene2hap.scene.geometry import vector
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session import HapticFrame, HapticSession, Touch
-from scene2hap.session.touch_track import LiftStep, MoveStep, TouchStep, TouchTrack
+from scene2hap.session.frame import unknown_hand
+from scene2hap.session.touch_track import LiftStep, MoveStep, SourceStep, Step, TouchStep, TouchTrack
 
 MAX_UPDATE_RATE_HZ = 1000.0
 """Assumed: trackers and haptic loops run at no more than 1 kHz."""
@@ -54,8 +56,8 @@ def play_track(
 ) -> None:
     """Play a track on a started session and into its sink, like a game with `update_rate_hz` frames per second.
 
-    Raises: SessionError, UnknownObject: a step names an unknown hand or object; SessionError: a rate outside of 1 to
-    `MAX_UPDATE_RATE_HZ`.
+    Raises: SessionError, UnknownObject: a step names an unknown hand, object or state (states are checked in their
+    turn, all others before the first frame); SessionError: a rate outside of 1 to `MAX_UPDATE_RATE_HZ`.
     """
     if not isinstance(track, TouchTrack):
         raise SessionError(
@@ -69,11 +71,16 @@ def play_track(
     origin = session.position
     # A last frame that is shorter than the others counts too, or the track would end before its time.
     n_frames = max(1, math.ceil(track.duration_s * update_rate_hz - 1e-9))
-    waiting = deque(track.steps)
+    for number, step in enumerate(track.steps, start=1):  # all of them first, since playing may take minutes
+        with _naming_step(number):
+            state.check(step, session)
+    waiting = deque(enumerate(track.steps, start=1))
     for i in range(n_frames):
         time_s = i / update_rate_hz
-        while waiting and waiting[0].time_s <= time_s + 1e-9:
-            state.take(waiting.popleft(), session)
+        while waiting and waiting[0][1].time_s <= time_s + 1e-9:
+            number, step = waiting.popleft()
+            with _naming_step(number):
+                state.take(step, session)
         begin = origin + round(time_s * rate)
         end = origin + round(min((i + 1) / update_rate_hz, track.duration_s) * rate)
         touches = state.touches(time_s)
@@ -81,6 +88,16 @@ def play_track(
         samples = sink.pull(end - begin)
         if on_frame is not None:
             on_frame(PlayedFrame(time_s, touches, frame, samples))
+
+
+@contextmanager
+def _naming_step(number: int) -> Iterator[None]:
+    """Name the step in an error, as `TouchTrack.parse` does."""
+    try:
+        yield
+    except Scene2HapError as error:
+        error.args = (f"touches: step {number}: {error}",)
+        raise
 
 
 @dataclass
@@ -114,7 +131,16 @@ class _TrackState:
     def __post_init__(self) -> None:
         self.poses = {item.id: item.pose for item in self.scene.objects}
 
-    def take(self, step: Any, session: HapticSession) -> None:
+    def check(self, step: Step, session: HapticSession) -> None:
+        """Raise an error if the scene lacks the step's object, or the session its hand or its source."""
+        if isinstance(step, TouchStep | LiftStep) and step.hand not in session.hands:
+            raise SessionError(unknown_hand(step.hand, session.hands))
+        if isinstance(step, TouchStep | MoveStep):
+            self.scene.object(step.touch if isinstance(step, TouchStep) else step.move)
+        elif isinstance(step, SourceStep):
+            session.set_source(step.source)  # changes nothing
+
+    def take(self, step: Step, session: HapticSession) -> None:
         if isinstance(step, TouchStep):
             self._touch(step)
         elif isinstance(step, LiftStep):

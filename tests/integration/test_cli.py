@@ -233,3 +233,16 @@ def test_inspect_names_likely_mistakes_and_thin_sheets(tmp_path: Path, capsys: p
     assert main(["inspect", str(path), "--json", "-q"]) == 0
     (warning,) = json.loads(capsys.readouterr().out)["warnings"]
     assert "'lamp' floats" in warning
+
+
+def test_numbers_in_any_spelling_are_no_options(capsys: pytest.CaptureFixture[str]) -> None:
+    for number in ("-6", "-.5", "-1e1", "-inf"):
+        assert main(["edit", "no.bundle", "gain", "fan", number]) == 1
+        assert "there is no folder 'no.bundle'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", [("inspect", "-x.glb"), ("edit", "some.bundle", "mute", "-fan")])
+def test_a_name_like_an_option_is_explained(capsys: pytest.CaptureFixture[str], words: tuple[str, ...]) -> None:
+    with pytest.raises(SystemExit):
+        main(words)
+    assert f"'{words[-1]}' is read as an option; write -- before names" in capsys.readouterr().err

@@ -16,7 +16,7 @@ _HEAD = """# The command line
 
 To look up a command and its arguments. `scene2hap COMMAND --help` shows the same. Every command also takes `-q` (no
 progress, no tables) and `--json` (the result as JSON). The exit status is 0; 1 for an error that you can act on; 2 for
-wrong usage.
+wrong usage. `--` ends the options: write it before a name that begins with "-".
 
 <!-- python tests/support/command_line_page.py writes this page from the parser -->
 """

@@ -40,3 +40,42 @@ def test_a_name_is_neither_markup_nor_a_command_to_the_terminal(capsys: pytest.C
 
 def test_a_table_without_rows_has_its_header(capsys: pytest.CaptureFixture[str]) -> None:
     assert any("object" in line for line in _printed(capsys, []))
+
+
+WIDE = ("object", "type", "material", ">mass kg", ">confidence", "vibrates", ">vibration Hz")
+ROWS = [
+    ("electric_toothbrush", "electric toothbrush", "abs", "0.13", "0.95", "on (electric toothbrush buzzing)", "263"),
+    (
+        "refrigerator",
+        "refrigerator",
+        "stainless steel",
+        "75",
+        "0.95",
+        "on (refrigerator humming)",
+        "80 from 98 rough 49",
+    ),
+    ("cookbook", "book", "paper", "0.45", "0.95", "", ""),
+]
+
+
+@pytest.mark.parametrize("width", [20, 40, 60, 80, 100, 160])
+def test_no_word_of_a_table_is_cut_and_no_column_is_lost_on_a_narrow_terminal(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, width: int
+) -> None:
+    monkeypatch.setattr("scene2hap.cli.console._FILE_WIDTH", width)
+    console = Console(quiet=False)
+    console.table("a room", WIDE, ROWS)
+    printed = capsys.readouterr().out
+    assert "…" not in printed
+    assert max(map(len, printed.splitlines())) <= width
+    shown = set(printed.replace(":", " ").replace(";", " ").split())
+    for text in (*(name.removeprefix(">") for name in WIDE[1:]), *(cell for row in ROWS for cell in row)):
+        assert set(text.split()) <= shown
+
+
+def test_a_name_longer_than_the_terminal_is_shown_whole(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("scene2hap.cli.console._FILE_WIDTH", 80)
+    printed = "".join(_printed(capsys, [("x" * 200, "1"), ("c", "2")]))
+    assert printed.count("x") == 200

@@ -66,6 +66,7 @@ def test_error_sends_a_setting_to_the_configuration() -> None:
     [
         ("ModalPlate", ["modal_plate", "infinite_plate"], "Did you mean 'modal_plate'?"),
         ("gain", ["mute", "gain_db"], "Did you mean 'gain_db'?"),
+        ("fan", ["mute", "handheld_fan"], "Did you mean 'handheld_fan'?"),
         ("xyz", ["mute"], ""),
         (3, ["3"], ""),
         ("", ["a"], ""),

@@ -75,3 +75,9 @@ def test_port_in_use_is_reported(server: ReportServer, tmp_path: Path) -> None:
     port = int(server.address.rstrip("/").rpartition(":")[2])
     with pytest.raises(ConfigError, match=f"port {port} cannot be used"):
         ReportServer("", tmp_path / "c.json", port)
+
+
+@pytest.mark.parametrize("port", [-1, 65536])
+def test_a_port_that_no_machine_has_is_refused(tmp_path: Path, port: int) -> None:
+    with pytest.raises(ConfigError, match=f"port is {port}"):
+        ReportServer("<p>page</p>", tmp_path / "corrections.json", port)

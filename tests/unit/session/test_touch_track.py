@@ -199,3 +199,26 @@ def test_too_many_steps_are_refused_before_reading() -> None:
 def test_a_track_without_a_single_sample_is_refused() -> None:
     with pytest.raises(SessionError, match=r"duration_s: .*0\.001"):
         TouchTrack.parse({**DOCUMENT, "duration_s": 5e-324, "steps": []})
+
+
+@pytest.mark.parametrize(
+    ("step", "sentence"),
+    [
+        ({"hand": "left", "touch": "tabel"}, "step 2: the scene has no object 'tabel'"),
+        ({"hand": "lft", "touch": "table"}, "step 2: no hand 'lft'"),
+        ({"hand": "lft", "lift": True}, "step 2: no hand 'lft'"),
+        ({"move": "tabel", "by_m": [0, 0, 0]}, "step 2: the scene has no object 'tabel'"),
+        ({"source": "table", "on": False}, "step 2: no source 'table'"),
+    ],
+)
+def test_a_wrong_step_is_named_before_the_first_frame(step: dict[str, object], sentence: str) -> None:
+    first = {"time_s": 0.0, "hand": "left", "touch": "table"}
+    track = TouchTrack.parse({"duration_s": 600, "steps": [first, {"time_s": 599.0, **step}]})
+    frames: list[PlayedFrame] = []
+    sink = MemorySink()
+    with (
+        HapticSession(*table_with_two_phones(), sink=sink) as session,
+        pytest.raises((SessionError, UnknownObject), match=sentence),
+    ):
+        play_track(session, track, sink, on_frame=frames.append)
+    assert not frames

@@ -228,3 +228,9 @@ def test_limits_hold_while_hands_come_and_go_on_another_thread() -> None:
     is_over.set()
     thread.join()
     assert not failed
+
+
+def test_a_file_without_the_table_of_a_profile_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "game.toml").write_text("[session]\n")
+    with pytest.raises(ConfigError, match="there is no table 'user'"):
+        UserProfile.parse(tmp_path / "game.toml")
