@@ -253,7 +253,7 @@ def test_a_session_goes_on_without_its_amplifier(tmp_path: Path, events: list[Si
         with plug:
             assert eventually(lambda: plug.device.accepted_frames > 200)
             assert session.update(touches=[on_the_phone]).gain("left", "phone") == 1.0
-            assert eventually(lambda: bool(plug.device._held.any()))
+            assert eventually(lambda: bool(plug.device._last.any()))
         assert eventually(lambda: kinds(events)[-1] in ("lost", "unavailable"))
         position = session.position
         assert session.update(touches=[on_the_phone]).gain("left", "phone") == 1.0
