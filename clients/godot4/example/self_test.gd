@@ -19,7 +19,7 @@ func run(game):
 		"sources": [{"id": "phone", "state": "ringing", "states": ["ringing"], "frequency_hz": 175.0}],
 		"n_bands": 1,
 		"sequence": 7,
-		"watchdog_s": 0.1,
+		"watchdog_s": 1.0,
 	})
 	hap.touch("left", "table", Vector3(0.5, 0.72, 0))
 	print("frame ", hap.encode_frame(0.5).hex_encode())
@@ -33,5 +33,5 @@ func run(game):
 	print("intensities ", hap.intensity("left"), " ", hap.intensity("right"))
 	print("gains ", hap.gain("left", "phone"), " ", hap.gain("right", "phone"))
 	print("cut ", hap.read_gains(bytes.slice(0, bytes.size() - 1), Time.get_ticks_usec()))
-	OS.delay_msec(150)
+	OS.delay_msec(1200)
 	print("stale ", hap.intensity("left"), " ", hap.gain("left", "phone"))
