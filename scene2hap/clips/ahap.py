@@ -68,8 +68,8 @@ class _Control:
     points: Points = field(default_factory=list)
 
     def join(self) -> None:
-        """Join the parts, each a curve or a single parameter. Between two parts the last value holds, as on the phone;
-        a line from one to the next would be a ramp that nobody drew."""
+        """Join the parts, each a curve or a single parameter. Between two parts the last value holds, as on the
+        phone."""
         rows = [(time, value, i == 0) for part in self.parts for i, (time, value) in enumerate(part)]
         rows.sort(key=_time_of)  # a file may have its curves in any order
         for time, value, begins in rows:

@@ -9,6 +9,20 @@ import sys
 import time
 from pathlib import Path
 
+ORDER = {
+    "session": "s",
+    "key": "00112233445566ff",
+    "layout": 1,
+    "objects": ["phone", "table"],
+    "n_moving": 1,
+    "hands": ["left", "right"],
+    "sources": [{"id": "phone", "state": "on", "states": ["on"], "is_on": True, "frequency_hz": 100.0}],
+    "n_bands": 1,
+    "sequence": 0,
+    "watchdog_s": 0.5,
+}
+"""The order of a scripted server."""
+
 _PAGE = Path(__file__).parents[2] / "docs" / "bridge-protocol.md"
 
 

@@ -26,19 +26,6 @@ needs_c = [
 
 Build = Callable[..., Path]
 
-ORDER = {
-    "session": "s",
-    "key": "00112233445566ff",
-    "layout": 1,
-    "objects": ["phone", "table"],
-    "n_moving": 1,
-    "hands": ["left", "right"],
-    "sources": [{"id": "phone", "state": "on", "states": ["on"], "is_on": True, "frequency_hz": 100.0}],
-    "n_bands": 1,
-    "sequence": 0,
-    "watchdog_s": 0.5,
-}
-
 
 def builder(folder: Path) -> Build:
     """Return a function that compiles a program once, with all warnings as errors."""

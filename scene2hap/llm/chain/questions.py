@@ -42,9 +42,9 @@ class Questions:
     """Send questions to a backend, as many at once as there are slots, and keep the report.
 
     An error that would affect every further question (an exhausted budget, a rejected key, a recording that does not
-    match) stops all questions. Running calls are completed, so that their answers are kept, and no new call begins.
-    So do `MOST_UNANSWERED` questions of one component in a row that the service does not answer.
-    So does a cancellation, as by Ctrl-C; a second one ends the running calls too.
+    match) stops all questions, as do `MOST_UNANSWERED` questions of one component in a row without an answer, and a
+    cancellation, as by Ctrl-C. Running calls are completed, so that their answers are kept, and no new call begins. A
+    second cancellation ends the running calls too.
     """
 
     def __init__(

@@ -12,7 +12,8 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import ServerConnection, serve
 
-from c_client import ORDER, Driver, kinds, needs_c
+from bridge_clients import ORDER
+from c_client import Driver, kinds, needs_c
 from scene2hap.bridge.frames import Frame, Gains, decode_frame, encode_gains
 from server_thread import running
 

@@ -13,7 +13,8 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 
-from c_client import ORDER, Driver, needs_c
+from bridge_clients import ORDER
+from c_client import Driver, needs_c
 from scene2hap.bridge.frames import decode_frame
 from serial_bench import eventually
 

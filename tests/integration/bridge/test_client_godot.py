@@ -19,6 +19,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import ServerConnection, serve
 
+import bridge_clients
 import godot4_web
 from bridge_clients import hex_of_page, start_server
 from browser_page import NEEDS_CHROMIUM, chromium
@@ -235,18 +236,7 @@ def test_the_example_of_the_page_runs(godot: Godot, bridge: Callable[..., Bridge
 # ---- Against a scripted server ----
 
 
-ORDER = {
-    "session": "s",
-    "key": "00112233445566ff",
-    "layout": 1,
-    "objects": ["phone", "table"],
-    "n_moving": 1,
-    "hands": ["left", "right"],
-    "sources": [{"id": "phone", "state": "on", "states": ["on"], "frequency_hz": 100.0}],
-    "n_bands": 1,
-    "sequence": 0,
-    "watchdog_s": 0.1,
-}
+ORDER = {**bridge_clients.ORDER, "watchdog_s": 0.1}
 
 
 @contextmanager
