@@ -307,8 +307,11 @@ class Landings:
         for other in sorted(beside):
             point = _middle(beside[other])
             came = self._nearing(object_id, other, point, *between)
-            closed = partial(self._is_closed, object_id, other, self._way(track, other))
+            closed = partial(self._is_drawer_of, object_id, track, other)
             yield _Approach(other, point, came, _direction(came), closed, is_contact=False, is_seen=False)
+
+    def _is_drawer_of(self, object_id: str, track: MotionTrack, other: str) -> bool:
+        return self._is_closed(object_id, other, self._way(track, other))
 
     def _is_at(self, object_id: str, track: MotionTrack, point_m: Vector, normal: Vector) -> bool:
         """Whether an object reaches a contact.
