@@ -12,52 +12,35 @@ import re
 import sys
 import warnings
 from collections.abc import Mapping, Sequence
+from importlib import import_module
 from typing import Any, NoReturn
 
 from scene2hap import __version__
-from scene2hap.cli import (
-    audition,
-    bake,
-    bake_many,
-    batch,
-    bridge,
-    convert,
-    demo,
-    doctor,
-    edit,
-    export,
-    inspect,
-    list as list_names,
-    play,
-    render,
-    report,
-    settings,
-    streams,
-)
+from scene2hap.cli import streams
 from scene2hap.cli.console import Console
 from scene2hap.common.checks import did_you_mean
 from scene2hap.common.printable import printable
 from scene2hap.errors import Scene2HapError
 
-COMMANDS = (
-    demo,
-    bake,
-    bake_many,
-    batch,
-    edit,
-    render,
-    play,
-    bridge,
-    audition,
-    export,
-    convert,
-    inspect,
-    report,
-    list_names,
-    settings,
-    doctor,
-)
-
+COMMANDS = {
+    "demo": "bake and play the built-in kitchen",
+    "bake": "bake a scene file into a haptic bundle",
+    "bake-many": "bake many scene files, each into a bundle",
+    "batch": "send questions about many scenes in batches: submit, status, collect, cancel",
+    "edit": "correct one object of a bundle",
+    "render": "render a file of touches on a bundle to a WAV file",
+    "play": "play a bundle with the arrow keys",
+    "bridge": "serve engines in other languages over a WebSocket",
+    "audition": "play one source of a bundle alone",
+    "export": "write a bundle in the haptic formats of other platforms",
+    "convert": "convert sound files into vibration",
+    "inspect": "show tables of a scene or a bundle",
+    "report": "show inferred values with their sources and reasons, as tables or as a page",
+    "list": "list names of materials, actuators and kinds",
+    "settings": "list every setting with its default",
+    "doctor": "show what this machine can do and what is missing, or play a test sweep",
+}
+"""Every command with its line in the list of commands. Its module is imported when the command is given."""
 
 _DOCS = (
     "Documentation by task: docs/README.md in the folder of the source. Every command: docs/command-line.md, or "
@@ -102,7 +85,7 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
     return 0
 
 
-class _Parser(argparse.ArgumentParser):
+class CommandParser(argparse.ArgumentParser):
     """Suggest similar words, and list the words of a missing command or verb.
 
     Arguments in messages are escaped as `Console` escapes names, since a file name may hold any character.
@@ -110,15 +93,27 @@ class _Parser(argparse.ArgumentParser):
 
     _given: Sequence[str] = ()
 
-    def __init__(self, *arguments: Any, **settings: Any) -> None:
+    def __init__(self, *arguments: Any, module: str | None = None, **settings: Any) -> None:
+        """Take the arguments of argparse, and the module whose command this parser reads."""
         super().__init__(*arguments, **settings)
+        self._module = module
         # argparse takes -6 for a number, but -1e1 and -inf for options; some versions know more numbers than others.
         self._negative_number_matcher = re.compile(
             r"-(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$|-(inf|infinity|nan)$", re.IGNORECASE
         )
 
+    def load(self) -> None:
+        """Import the module of the command and add its arguments, once: all modules take half a second to import."""
+        if self._module is not None:
+            module = import_module(self._module)
+            self._module = None
+            self.description = module.__doc__
+            module.add_arguments(self)
+            self.set_defaults(run=module.run)
+
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """Parse as argparse does, and keep the arguments for `error`."""
+        self.load()
         self._given = tuple(sys.argv[1:] if args is None else args)
         return super().parse_known_args(args, namespace)
 
@@ -159,21 +154,19 @@ class _Parser(argparse.ArgumentParser):
 
 
 def command_parser() -> argparse.ArgumentParser:
-    """Return the parser of the command line."""
-    parser = _Parser(prog="scene2hap", description="Scene-wide vibrotactile haptics.", epilog=_DOCS)
+    """Return the parser of the command line. The parser of a command has its arguments after `load`."""
+    parser = CommandParser(prog="scene2hap", description="Scene-wide vibrotactile haptics.", epilog=_DOCS)
     parser.add_argument("--version", action="version", version=f"scene2hap {__version__}")
-    common = _Parser(add_help=False)
+    common = CommandParser(add_help=False)
     common.add_argument("-q", "--quiet", action="store_true", help="show no progress and no tables")
     common.add_argument("--json", action="store_true", help="print the result as JSON instead of tables")
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
-    for module in COMMANDS:
-        command = commands.add_parser(
-            module.__name__.rpartition(".")[2].replace("_", "-"),
+    for name, line in COMMANDS.items():
+        commands.add_parser(
+            name,
             parents=[common],
-            help=module.HELP,
-            description=module.__doc__,
+            help=line,
             formatter_class=argparse.RawDescriptionHelpFormatter,
+            module=f"scene2hap.cli.{name.replace('-', '_')}",
         )
-        module.add_arguments(command)
-        command.set_defaults(run=module.run)
     return parser

@@ -24,8 +24,6 @@ from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.objects import SceneObject
 from scene2hap.session import HapticSession, Touch
 
-HELP = "play one source of a bundle alone"
-
 HAND = "right"
 MOST_S = 600.0
 _AT_ONCE_S = 60.0

@@ -34,8 +34,6 @@ from scene2hap.scene.capture.given_pictures import GivenPictures
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
 
-HELP = "bake a scene file into a haptic bundle"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``scene2hap bake``."""

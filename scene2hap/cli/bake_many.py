@@ -24,8 +24,6 @@ from scene2hap.cli.console import Console
 from scene2hap.errors import ConfigError, SceneError
 from scene2hap.llm.wrappers import is_remote
 
-HELP = "bake many scene files, each into a bundle"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``scene2hap bake-many``."""

@@ -21,8 +21,6 @@ from scene2hap.cli.bake_many import add_many_arguments, files, many_settings
 from scene2hap.cli.console import Console
 from scene2hap.errors import ConfigError, SceneError
 
-HELP = "send questions about many scenes in batches: submit, status, collect, cancel"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``scene2hap batch``."""

@@ -22,8 +22,6 @@ from scene2hap.cli.shared_options import given_spec
 from scene2hap.common.settings import read_settings
 from scene2hap.errors import ConfigError
 
-HELP = "serve engines in other languages over a WebSocket"
-
 TOKEN_VARIABLE = "SCENE2HAP_BRIDGE_TOKEN"
 
 

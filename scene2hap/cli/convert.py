@@ -23,8 +23,6 @@ from scene2hap.cli.shared_options import given_spec
 from scene2hap.common.counted import counted
 from scene2hap.errors import AudioError, ConfigError
 
-HELP = "convert sound files into vibration"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``scene2hap convert``."""

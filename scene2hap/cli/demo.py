@@ -23,8 +23,6 @@ from scene2hap.session import SessionConfig
 from scene2hap.session.touch_track import TouchTrack
 from scene2hap.session.track_player import PlayedFrame
 
-HELP = "bake and play the built-in kitchen"
-
 _FELT_FLOOR_DB = -60.0
 _STAY_S = 0.15
 

@@ -33,8 +33,6 @@ from scene2hap.haptics import ActuatorProfile
 from scene2hap.render.safety import SafetyLayer
 from scene2hap.session.mix.output import LONGEST_FADE_OUT_S
 
-HELP = "show what this machine can do and what is missing, or play a test sweep"
-
 RATE_HZ = 48000
 SWEEP_HZ = (40.0, 400.0)
 SWEEP_S, PAUSE_S = 2.0, 0.5

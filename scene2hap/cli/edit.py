@@ -62,8 +62,6 @@ from scene2hap.errors import BundleChanged, BundleError, Scene2HapError, reason_
 from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.wrappers import is_remote
 
-HELP = "correct one object of a bundle"
-
 POLL_S = 0.05
 """Interval between checks of a watched file [s]."""
 

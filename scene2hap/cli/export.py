@@ -24,8 +24,6 @@ from scene2hap.errors import ConfigError
 from scene2hap.export import EXPORTS, ExportReport, export_bundle, export_clip
 from scene2hap.export.exporting import ALL
 
-HELP = "write a bundle in the haptic formats of other platforms"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``scene2hap export``."""

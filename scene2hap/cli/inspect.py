@@ -31,8 +31,6 @@ from scene2hap.errors import SceneError, unwritable
 from scene2hap.scene.capture import capture_images, contact_sheet, plan_view, render_all
 from scene2hap.scene.snapshot import SceneSnapshot
 
-HELP = "show tables of a scene or a bundle"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``scene2hap inspect``."""

@@ -24,8 +24,6 @@ from scene2hap.plugins import PluginGroup
 from scene2hap.propagation import MODELS
 from scene2hap.scene.capture import RENDERERS
 
-HELP = "list names of materials, actuators and kinds"
-
 GROUPS: Mapping[str, PluginGroup] = {
     "llm": BACKENDS,
     "audio": SOURCES,

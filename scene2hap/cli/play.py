@@ -28,8 +28,6 @@ from scene2hap.errors import ConfigError
 from scene2hap.session import HapticFrame, HapticSession, Touch
 from scene2hap.session.bundle_watch import BundleWatch
 
-HELP = "play a bundle with the arrow keys"
-
 HAND = "right"
 UPDATE_S = 0.02
 _STEP_DB = 3.0

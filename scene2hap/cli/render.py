@@ -19,8 +19,6 @@ from scene2hap.session import HapticSession, SessionConfig, UserProfile
 from scene2hap.session.touch_track import TouchTrack
 from scene2hap.session.track_player import PlayedFrame, play_track
 
-HELP = "render a file of touches on a bundle to a WAV file"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``scene2hap render``."""

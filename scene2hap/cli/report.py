@@ -24,8 +24,6 @@ from scene2hap.cli.console import Console
 from scene2hap.errors import BundleError
 from scene2hap.haptics import SourceState
 
-HELP = "show inferred values with their sources and reasons, as tables or as a page"
-
 _PICTURE_PX = 256
 
 

@@ -20,8 +20,6 @@ from scene2hap.cli.console import Console
 from scene2hap.common.settings import Settings
 from scene2hap.session import SessionConfig, UserProfile
 
-HELP = "list every setting with its default"
-
 TABLES: dict[str, type[Settings]] = {"bake": BakeConfig, "session": SessionConfig, "user": UserProfile}
 
 _ENTRY = re.compile(r"^(\w+) : (.+(?:\n    .+)*)", re.MULTILINE)

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from textwrap import fill
 
-from scene2hap.cli import command_parser
+from scene2hap.cli import CommandParser, command_parser
 
 PAGE = Path(__file__).parents[2] / "docs" / "command-line.md"
 
@@ -33,6 +33,9 @@ def page() -> str:
 
 def _commands(parser: argparse.ArgumentParser) -> Iterator[str]:
     commands = _below(parser)
+    for command in commands.values():
+        if isinstance(command, CommandParser):
+            command.load()
     of_bake = [*_rows(commands["bake"])]
     for name, command in commands.items():
         yield f"## {name}\n"

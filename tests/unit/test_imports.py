@@ -9,6 +9,18 @@ import pytest
 
 from scene2hap.errors import UnknownImport
 
+HELP = """
+from contextlib import suppress
+from scene2hap.cli import main
+with suppress(SystemExit):
+    main(["--help"])
+"""
+EVERY_COMMAND = """
+from importlib import import_module
+from scene2hap.cli import COMMANDS
+for name in COMMANDS:
+    import_module("scene2hap.cli." + name.replace("-", "_"))
+"""
 HEAVY = {"numpy", "pydantic", "trimesh", "scipy", "httpx", "networkx"}
 
 
@@ -29,9 +41,15 @@ def test_the_playing_side_loads_no_scene_reader_and_no_network() -> None:
     assert not {name for name in loaded if name.startswith(behind_the_wall)}
 
 
+def test_the_list_of_commands_loads_none_of_their_modules() -> None:
+    loaded = modules_after(HELP)
+    assert "scene2hap.cli.console" in loaded
+    assert not loaded & (HEAVY | {"scene2hap.cli.bake", "scene2hap.cli.play"})
+
+
 def test_the_command_line_starts_without_the_packages_of_scipy() -> None:
     """They take as long as all other imports together. `import scipy` loads each where a command first uses it."""
-    loaded = modules_after("import scene2hap.cli")
+    loaded = modules_after(EVERY_COMMAND)
     assert not loaded & {f"scipy.{name}" for name in ("fft", "linalg", "optimize", "signal", "sparse", "stats")}
 
 
