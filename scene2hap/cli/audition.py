@@ -19,7 +19,7 @@ from scene2hap.cli.shared_options import given_spec, session_config
 from scene2hap.common import checks
 from scene2hap.devices import SINKS
 from scene2hap.devices.wav import WavSink
-from scene2hap.errors import ConfigError
+from scene2hap.errors import ConfigError, DeviceError
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.objects import SceneObject
 from scene2hap.session import HapticSession, Touch
@@ -62,11 +62,13 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
                     wav.pull_s(min(_AT_ONCE_S, seconds - start))
         else:
             _play(session, touch, actuator, seconds)
-    if actuator.problem or not actuator.has_played:
-        console.warn(f"nothing was played: {actuator.problem or 'the actuator did not start'}")
+    if not actuator.has_played:
+        raise DeviceError(f"nothing was played: {actuator.problem or 'the actuator did not start.'}")
+    if actuator.problem:
+        console.warn(actuator.problem)
     if arguments.output:
         console.say(f"wrote {arguments.output}")
-    return {"source": arguments.id, "state": arguments.state, "wav": arguments.output, "played": actuator.has_played}
+    return {"source": arguments.id, "state": arguments.state, "wav": arguments.output}
 
 
 def _why_silent(haptics: ObjectHaptics, name: str | None) -> str:

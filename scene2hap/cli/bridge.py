@@ -57,9 +57,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         "sink": given_spec("--sink", arguments.sink) if arguments.sink else None,
         "udp": arguments.udp or None,
     }
-    read = read_settings(arguments.settings, "bridge")
-    tables = {name: read_settings(arguments.settings, name) for name in ("bake", "session")}
-    server = BridgeServer(BridgeConfig.parse({**tables, **read}, **given), owns_process=True)
+    tables = read_settings(arguments.settings, "bridge", "bake", "session")
+    server = BridgeServer(BridgeConfig.parse({**tables, **tables.pop("bridge")}, **given), owns_process=True)
     with warnings_to_clients():
         asyncio.run(_serve(server, console))
     return {"url": server.url}

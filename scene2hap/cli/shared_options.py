@@ -34,7 +34,7 @@ def add_backend_arguments(parser: argparse.ArgumentParser) -> None:
 
 def backend_settings(arguments: argparse.Namespace) -> dict[str, Any]:
     """Return the table [bake] of the file of settings, overridden by the other arguments. Raises: ConfigError."""
-    settings = read_settings(arguments.settings, "bake")
+    settings = read_settings(arguments.settings, "bake")["bake"]
     if arguments.llm:
         given_llm = given_spec("--llm", arguments.llm)
         if isinstance(given_llm, str):
@@ -66,5 +66,5 @@ def _given(**settings: object) -> dict[str, Any]:
 
 def session_config(path: str | None, bundle: HapticBundle, **changes: Any) -> SessionConfig:
     """Return the table [session] of a file, overridden by `changes`. The default actuator is the bundle's."""
-    settings = read_settings(path, "session")
+    settings = read_settings(path, "session")["session"]
     return SessionConfig.parse({"actuator": bundle.actuator or "flat", **settings}, **changes)

@@ -65,7 +65,7 @@ class Settings(BaseModel):
         if isinstance(settings, cls) and not wanted:
             return settings
         if isinstance(settings, os.PathLike) or (isinstance(settings, str) and Path(settings).suffix in _SUFFIXES):
-            settings = read_settings(str(settings), cls.of_what, required=True)
+            settings = read_settings(str(settings), cls.of_what)[cls.of_what]
         if isinstance(settings, Settings) and issubclass(cls, type(settings)):
             settings = {name: getattr(settings, name) for name in settings.model_fields_set}
         if settings is not None and not isinstance(settings, Mapping):
@@ -101,13 +101,13 @@ SECTIONS = ("bake", "bridge", "session", "user")
 """The tables that a file of settings may have."""
 
 
-def read_settings(path: str | None, section: str, *, required: bool = False) -> dict[str, Any]:
-    """Read one of `SECTIONS` from a settings file; empty without a file.
+def read_settings(path: str | None, *sections: str) -> dict[str, dict[str, Any]]:
+    """Read some of `SECTIONS` from a settings file. Absent tables are empty, and all are without a file.
 
-    Raises: ConfigError: the file cannot be read, has other content, or lacks a required section.
+    Raises: ConfigError: the file cannot be read, has other content, or has none of the tables.
     """
     if path is None:
-        return {}
+        return {section: {} for section in sections}
     try:
         text = read_small_text(path)
         if not path.lower().endswith(".json") and _LONG_KEY.search(text):
@@ -124,14 +124,16 @@ def read_settings(path: str | None, section: str, *, required: bool = False) -> 
     if stray:
         raise ConfigError(
             f"settings {path}: {stray[0]!r} is outside of the tables {', '.join(SECTIONS)}; write it into one of "
-            f"them, as [{section}] in TOML."
+            f"them, as [{sections[0]}] in TOML."
         )
-    if required and section not in document:  # otherwise, say, the limits in a person's profile would be ignored
-        raise ConfigError(f"settings {path}: there is no table {section!r}; write [{section}] in TOML.")
-    found = document.get(section, {})
-    if not isinstance(found, dict):
-        raise ConfigError(f"settings {path}: {section!r} must be a table of settings.")
-    return found
+    if document.keys().isdisjoint(sections):  # otherwise, say, the limits in a person's profile would be ignored
+        read = " or ".join(map(repr, sections))
+        raise ConfigError(f"settings {path}: there is no table {read}; write [{sections[0]}] in TOML.")
+    tables = {section: document.get(section, {}) for section in sections}
+    for section, table in tables.items():
+        if not isinstance(table, dict):
+            raise ConfigError(f"settings {path}: {section!r} must be a table of settings.")
+    return tables
 
 
 def cache_folder(part: str) -> Path:

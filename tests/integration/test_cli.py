@@ -145,6 +145,9 @@ def test_settings_from_a_file(room: Path, tmp_path: Path, capsys: pytest.Capture
     command = ["render", str(tmp_path / "b"), "--touches", str(touches), "-o", str(tmp_path / "o.wav")]
     assert main([*command, "--settings", str(settings)]) == 1
     assert "session setting bands" in capsys.readouterr().err
+    settings.write_text("[bake]\n")
+    assert main([*command, "--settings", str(settings)]) == 1
+    assert "there is no table 'session'" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -83,7 +83,7 @@ def test_designer_page_runs_as_written(tmp_path: Path, monkeypatch: pytest.Monke
     for line in lines:
         words = shlex.split(line, comments=True)[1:]
         if words[0] != "play" and "--watch" not in words:  # these need a terminal, and run until stopped
-            briefly = ["--seconds", "0.2"] if words[0] == "audition" else []
+            briefly = ["--seconds", "0.2", "--sink", "memory"] if words[0] == "audition" else []
             assert main([*words, *briefly, "-q"]) == 0, line
     bundle = HapticBundle.load("kitchen.bundle")
     assert bundle.is_muted("microwave")
@@ -142,13 +142,16 @@ def test_a_muted_source_is_silent_until_the_game_unmutes_it(folder: Path) -> Non
 
 def test_audition_writes_one_source_alone(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["edit", str(folder), "mute", "smartphone", "-q"]) == 0  # an audition also plays muted sources
-    assert outcome(capsys, "audition", str(folder), "smartphone", "-o", "phone.wav", "--seconds", "2")["played"]
+    assert outcome(capsys, "audition", str(folder), "smartphone", "-o", "phone.wav", "--seconds", "2")["wav"]
     samples, rate = soundfile.read("phone.wav")
     assert len(samples) >= 2 * rate
     loop = HapticBundle.load(folder).loops["smartphone"]["ringing"].tactile
     assert np.abs(samples).max() == pytest.approx(np.abs(loop.samples).max(), rel=0.1)
     assert main(["audition", str(folder), "dining_table", "-o", "none.wav"]) == 1
     assert "no source 'dining_table'" in capsys.readouterr().err
+    no_port = '{"kind": "serial", "port": "/dev/none"}'
+    assert main(["audition", str(folder), "smartphone", "--seconds", "0.1", "--sink", no_port]) == 1
+    assert "nothing was played: no serial port /dev/none" in capsys.readouterr().err
     assert not Path("none.wav").exists()
 
 

@@ -62,8 +62,11 @@ class OptionalParameters:
 def _blamed(error: ServerError) -> str:
     """Return the parameter that an error rejects. Gateways leave `param` empty, and quote the parameter's name.
 
-    The first name counts: "'max_tokens' is not supported, use 'max_completion_tokens'".
+    The first name counts: "'max_tokens' is not supported, use 'max_completion_tokens'". An error about a value, as
+    "max_tokens is too large: 200000", rejects no parameter.
     """
+    if "too large" in error.message:
+        return ""
     if error.param:
         return error.param
     quoted = _QUOTED.search(error.message)

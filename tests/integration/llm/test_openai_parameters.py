@@ -38,6 +38,16 @@ def test_a_gateway_names_the_parameter_in_its_message_alone(quote: str) -> None:
     assert server.bodies[1]["max_completion_tokens"] == 300
 
 
+@pytest.mark.parametrize("named", [{"param": "max_tokens", "code": "invalid_value"}, {"param": None, "code": None}])
+def test_too_large_a_value_is_an_error_and_no_rejected_parameter(named: dict[str, object]) -> None:
+    """With words of vLLM, which OpenAI's resemble. Sent by its other name, the value would be too large again."""
+    message = "'max_tokens' or 'max_completion_tokens' is too large: 200000. The maximum context length is 2048 tokens."
+    error = {"message": message, "type": "BadRequestError", **named}
+    with openai_serving(refused(400, error)) as server, pytest.raises(BackendUnavailable, match="too large: 200000"):
+        ask(openai(server, max_tokens=200_000))
+    assert len(server.bodies) == 1
+
+
 def test_a_service_without_strict_output_is_sent_to_the_kind_that_needs_none() -> None:
     error = {"message": "This response_format type is unavailable now", "type": "invalid_request_error"}
     with openai_serving(refused(400, error)) as server, pytest.raises(BackendUnavailable, match="use kind 'local'"):
