@@ -84,13 +84,15 @@ class Cancelled(Answer):
 
 
 class Source(BaseModel):
-    """The present state of a vibrating object."""
+    """The present state of a vibrating object, the fields of `SourceInfo`."""
 
     id: str
     state: str
     states: list[str]
     is_on: bool
     frequency_hz: Number
+    gain_db: Number
+    is_muted: bool
 
 
 class Order(Answer):

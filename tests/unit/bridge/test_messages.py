@@ -1,14 +1,16 @@
 """Text messages: valid ones are accepted, and others get an error reply."""
 
 import json
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
 from jsonschema import Draft202012Validator
 
 from scene2hap.bridge.messages import MODELS, parse_request, read_document, request_id
-from scene2hap.bridge.schema import schema
+from scene2hap.bridge.schema import Source, schema
 from scene2hap.errors import BridgeError
+from scene2hap.session.mix.sources import SourceInfo
 
 DOCS = Path(__file__).parents[3] / "docs"
 PAGE = (DOCS / "bridge-protocol.md").read_text(encoding="utf-8")
@@ -64,6 +66,10 @@ def test_every_request_is_documented_on_the_page() -> None:
         row = next(line for line in table.splitlines() if line.startswith("|") and f"`{kind}`" in line.split("|")[1])
         for field in set(model.model_fields) - {"type", "id"}:
             assert f"`{field}`" in row, f"the row of {kind} lacks {field}"
+
+
+def test_the_schema_of_a_source_has_every_field_that_is_sent() -> None:
+    assert {*Source.model_fields} == {field.name for field in fields(SourceInfo)}
 
 
 def test_the_published_schema_is_up_to_date_and_sound() -> None:
