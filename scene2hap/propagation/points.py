@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common import checks
-from scene2hap.compiled import compiled
 from scene2hap.errors import ModelDomainError
 from scene2hap.scene.pose import Pose
 
@@ -23,7 +22,8 @@ def as_points(points_m: ArrayLike, dimensions: int) -> NDArray[np.float64]:
         points = points.reshape(1, -1)
     if points.ndim != 2 or points.shape[1] != dimensions:
         raise ModelDomainError(f"points have shape {points.shape}; they must be (n_points, {dimensions}) [m].")
-    if not are_finite(points):
+    # A sum of squares is finite only if all its terms are: one quick call is enough, since nearly all points are valid.
+    if not math.isfinite(np.vdot(points, points)) and not np.isfinite(points).all():
         raise ModelDomainError("points hold a coordinate that is not finite; every one must be a number [m].")
     return points
 
@@ -37,21 +37,15 @@ def object_points(object_id: object, points_m: ArrayLike) -> NDArray[np.float64]
     return as_points(points_m, 3)
 
 
-@compiled
-def are_finite(points: NDArray[np.float64]) -> bool:
-    """Whether all coordinates (n_points, n_axes) are finite."""
-    # A sum of squares is finite only if all its terms are: one quick call is enough, since nearly all points are valid.
-    return math.isfinite(np.vdot(points, points)) or bool(np.isfinite(points).all())
-
-
-@compiled
 class InRectangle:
     """A rectangle in the world, with its corner at `pose`."""
 
     def __init__(self, pose: Pose, length_m: float, width_m: float) -> None:
-        self._pose, self._sides_m = pose, (length_m, width_m)
+        self._corner_m, self._axes = np.array(pose.position_m), pose.rotation[:, :2]
+        self._sides_m = np.array([length_m, width_m])
 
     def __call__(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
         """Convert world points (n, 3) to (n, 2) [m] along length and width; those beside it go to its nearest edge."""
-        flat = self._pose.to_own(points_m)[:, :2]
-        return np.minimum(np.maximum(flat, 0.0), self._sides_m)
+        flat: NDArray[np.float64] = (points_m - self._corner_m) @ self._axes
+        np.minimum(np.maximum(flat, 0.0, out=flat), self._sides_m, out=flat)
+        return flat

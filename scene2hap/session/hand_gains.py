@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common.warning import warn_of
-from scene2hap.compiled import compiled
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.live import CostsByHand, LiveField, PathCostField, TouchedPoint
@@ -145,7 +144,6 @@ class TouchGains:
         return points, among
 
 
-@compiled
 def cap(gains: NDArray[np.float64], limit: float) -> int:
     """Clip gains (n, m, k) to 0 and a limit, in place. Returns how many were above the limit.
 

@@ -15,7 +15,6 @@ from scene2hap.propagation.coupled.elimination_order import pattern_of
 from scene2hap.propagation.modal.near_field import table
 from scene2hap.propagation.paths.prepared_paths import Network, Sides
 from scene2hap.scene.objects import Contact
-from scene2hap.scene.pose import Pose
 
 
 def places(rng: np.random.Generator, n: int) -> list[tuple[float, float, float]]:
@@ -209,25 +208,6 @@ def test_kernels_find_the_same_magnitudes(seed: int, n: int, m: int) -> None:
         kind(lambda _: pairs)(np.empty((n, 2))) for kind in both("propagation.coupled.object_response.Magnitudes")
     )
     np.testing.assert_allclose(compiled, told, rtol=1e-14)
-
-
-@pytest.mark.parametrize("odd", [0.0, 1e200, -1e308, math.inf, -math.inf, math.nan])
-def test_kernels_agree_whether_points_are_finite(odd: float) -> None:
-    plain, twin = both("propagation.points.are_finite")
-    for n in range(3):
-        points = np.ones((n, 3))
-        points[n // 2 :, 1] = odd
-        assert twin(points) == plain(points)
-
-
-@steady
-@given(seed=seeds, n=st.integers(0, 4))
-def test_kernels_move_points_into_a_rectangle_alike(seed: int, n: int) -> None:
-    rng = np.random.default_rng(seed)
-    pose = Pose(tuple(rng.normal(size=3).tolist()), tuple(rng.normal(size=4).tolist()))
-    points = rng.normal(size=(n, 3))
-    told, compiled = (kind(pose, 0.8, 0.5)(points) for kind in both("propagation.points.InRectangle"))
-    np.testing.assert_allclose(compiled, told, atol=1e-14)
 
 
 def test_compiled_factorisation_solves_systems_that_are_dense_in_plain_python() -> None:

@@ -4,10 +4,12 @@ import tracemalloc
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.paths.prepared_paths import Arrivals, arrivals_at
-from scene2hap.propagation.points import as_points
+from scene2hap.propagation.points import InRectangle, as_points
+from scene2hap.scene.pose import Pose
 
 INF, NAN = float("inf"), float("nan")
 
@@ -26,6 +28,17 @@ def test_coordinates_whose_squares_overflow_are_accepted() -> None:
 def test_points_of_wrong_shape_are_refused(bad: object) -> None:
     with pytest.raises(ModelDomainError, match="must be"):
         as_points(bad, 3)
+
+
+@pytest.mark.parametrize("n", [0, 1, 7])
+def test_points_beside_a_rectangle_go_to_its_nearest_edge(n: int) -> None:
+    rng = np.random.default_rng(n)
+    corner_m, turn = rng.normal(size=3), Rotation.random(rng=rng)
+    points = rng.normal(size=(n, 3))
+    own = turn.inv().apply(points - corner_m) if n else points
+    nearest = np.stack([np.clip(own[:, 0], 0.0, 0.8), np.clip(own[:, 1], 0.0, 0.5)], axis=1)
+    rectangle = InRectangle(Pose(tuple(corner_m.tolist()), tuple(turn.as_quat().tolist())), 0.8, 0.5)
+    np.testing.assert_allclose(rectangle(points), nearest, atol=1e-14)
 
 
 def test_a_map_of_many_points_needs_little_memory_and_gives_the_costs_of_single_points() -> None:

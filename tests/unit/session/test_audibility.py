@@ -9,7 +9,7 @@ import pytest
 from scene2hap import Bands, ExponentialPlate, HapticFrame, HapticSession, Pose, Touch
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.devices.protocol import Fill, SinkFormat, SinkStats
-from scene2hap.session.audibility import SILENT, Audibility, CutoffCost
+from scene2hap.session.audibility import SILENT, Audibility, CutoffCost, sifted, silence, within
 from scene2hap.session.config import SkipConfig
 from scene2hap.session.frame import Counts
 from scene2hap.session.mix.prepared_loops import peaks_of
@@ -146,3 +146,49 @@ def test_a_sink_of_gains_gets_zeros_in_a_pause() -> None:
         s.update(touches=[Touch("left", "table", (0.15, 0.72, 0.4))])
         s.pause()
     assert [frame.gains.any() for frame in sink.frames] == [True, False]
+
+
+def test_sources_within_their_cut_off_in_any_row_are_selected() -> None:
+    rng = np.random.default_rng(3)
+    for n in [0, 1, 2, 3] * 20:
+        costs = rng.choice([0.0, 1.0, 2.0, math.inf], (n, 5)).tolist()
+        cutoff = rng.choice([-1.0, 0.0, 1.5, math.inf], 5).tolist()
+        sought = [frozenset(rng.choice(5, int(rng.integers(0, 5)), replace=False).tolist()) for _ in range(n)]
+        columns, rows, n_beyond = within(costs, cutoff, sought)
+        assert columns == [x for x in range(5) if any(row[x] <= cutoff[x] for row in costs)]
+        assert rows == [[row[x] if row[x] <= cutoff[x] else math.inf for x in columns] for row in costs]
+        assert n_beyond == sum(row[x] > cutoff[x] for row, among in zip(costs, sought, strict=True) for x in among)
+
+
+def test_bands_below_the_minimum_of_their_source_are_zeroed_and_counted() -> None:
+    least = np.array([[0.1, 0.5], [np.inf, 0.0]], dtype=np.float32)
+    gains = np.array([[[0.1, 0.4], [9.0, 0.0]], [[np.nan, 0.5], [0.0, 0.2]]], dtype=np.float32)
+    assert silence(gains, least, None) == 3  # 0.4, 9.0 and the NaN
+    np.testing.assert_array_equal(gains, np.array([[[0.1, 0], [0, 0]], [[0, 0.5], [0, 0.2]]], dtype=np.float32))
+    swapped = np.array([[[0.05, 0.7]]], dtype=np.float32)
+    assert silence(swapped, least, [0]) == 1
+    np.testing.assert_array_equal(swapped, np.array([[[0, 0.7]]], dtype=np.float32))
+
+
+@pytest.mark.parametrize("has_peaks", [True, False])
+@pytest.mark.parametrize("has_least", [True, False])
+def test_sources_too_weak_to_be_felt_and_silent_bands_are_left_out(has_peaks: bool, has_least: bool) -> None:
+    rng = np.random.default_rng(5)
+    for n, m in [(0, 2), (1, 0), (1, 3), (3, 4)] * 10:
+        gains = rng.choice([0.0, 1e-9, 0.1, 0.5], (n, m, 5), p=[0.6, 0.1, 0.2, 0.1]).astype(np.float32)
+        peaks = rng.uniform(0, 2, (m, 5)).astype(np.float32) if has_peaks else None
+        least = rng.choice([0.0, 0.2, np.inf], (m, 5)).astype(np.float32) if has_least else None
+        wanted, n_below, n_silent = gains.copy(), 0, 0
+        for i, j in np.ndindex(n, m):
+            felt = 0.3 if peaks is None else float(gains[i, j].astype(float) @ peaks[j])
+            if felt < 0.3:
+                n_below += felt != 0
+                wanted[i, j] = 0
+            for k in range(5 if least is not None else 0):
+                if wanted[i, j, k] < least[j, k]:
+                    n_silent += wanted[i, j, k] != 0
+                    wanted[i, j, k] = 0
+        columns = [j for j in range(m) if least is None or wanted[:, j].any()]
+        kept, chosen, *counts = sifted(gains, peaks, 0.3, least)
+        assert (chosen, counts) == (columns, [n_below, n_silent])
+        np.testing.assert_array_equal(kept, wanted[:, columns])
