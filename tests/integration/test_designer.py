@@ -30,6 +30,7 @@ from scene2hap import (
     SceneSnapshot,
     Touch,
     bake,
+    load_scene,
     rebake,
 )
 from scene2hap.audio.files import write_wav
@@ -52,11 +53,18 @@ def tone(path: Path, frequency_hz: float) -> Path:
     return path
 
 
+@pytest.fixture(scope="module")
+def baked(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    work = tmp_path_factory.mktemp("baked")
+    scene = load_scene(small_kitchen(work / "kitchen.glb", "floor", "dining_table", "smartphone"))
+    return bake(scene).save(work / "kitchen.bundle")
+
+
 @pytest.fixture
-def folder(kitchen_bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A copy of the kitchen's bundle in the working folder."""
+def folder(baked: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of the bundle of a smartphone on a table in the working folder."""
     monkeypatch.chdir(tmp_path)
-    return shutil.copytree(kitchen_bundle, tmp_path / "kitchen.bundle")
+    return shutil.copytree(baked, tmp_path / "kitchen.bundle")
 
 
 @pytest.fixture
