@@ -15,6 +15,7 @@ import argparse
 import importlib
 import itertools
 import os
+import pkgutil
 import platform
 import sys
 import tempfile
@@ -95,8 +96,11 @@ def main() -> int:
 
 def _preload() -> None:
     """Import common modules once, so that forked cases need not import them again."""
+    import scene2hap.cli
+
+    commands = (f"scene2hap.cli.{found.name}" for found in pkgutil.iter_modules(scene2hap.cli.__path__))
     for name in (
-        "scene2hap.cli",
+        *commands,
         "scene2hap.scene.load",
         "scene2hap.scene.formats.gltf",
         "scene2hap.scene.formats.obj",

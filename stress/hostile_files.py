@@ -212,7 +212,7 @@ def main() -> int:
     parser.add_argument("--readers", nargs="+", choices=READERS, default=list(READERS), metavar="READER")
     parser.add_argument("--seconds", type=float, default=10.0, help="of processor time for one case")
     parser.add_argument("--megabytes", type=int, default=1024, help="of memory for the process that reads")
-    parser.add_argument("--case", type=int, help="run only the case of this number, of each reader")
+    parser.add_argument("--case", type=int, nargs="+", help="run only the cases of these numbers, of each reader")
     given = parser.parse_args()
     print(f"Python {platform.python_version()}, {platform.machine()}; seed {given.seed}")
     failures: list[str] = []
@@ -223,7 +223,7 @@ def main() -> int:
         limits = given.seconds, given.megabytes
         process = Child(child, Path(work), given.seed, *limits, longest_s=12 * given.seconds)
         end = time.monotonic() + 60 * given.minutes
-        numbers = itertools.count() if given.case is None else [given.case]
+        numbers = itertools.count() if given.case is None else given.case
         for number, name in ((number, name) for number in numbers for name in names):
             if given.case is None and number % READERS[name].every:
                 continue

@@ -22,10 +22,9 @@ def test_a_slice_of_the_attack_table() -> None:
         assert f"| {family} | 9 |" in done.stdout
 
 
-@pytest.mark.parametrize("case", [1, 2])
-def test_a_slice_of_the_damaged_files(case: int) -> None:
+def test_a_slice_of_the_damaged_files() -> None:
     readers = ["glTF", "bundle", "AHAP", "WAV FLOAT", "touches JSON", "settings TOML", "answers", "batches"]
-    command = [sys.executable, str(STRESS / "hostile_files.py"), "--case", str(case), "--readers", *readers]
+    command = [sys.executable, str(STRESS / "hostile_files.py"), "--case", "1", "2", "--readers", *readers]
     done = subprocess.run(command, capture_output=True, text=True, timeout=240)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert f"{len(readers)} cases, 0 failed" in done.stdout
+    assert f"{2 * len(readers)} cases, 0 failed" in done.stdout

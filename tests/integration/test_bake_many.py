@@ -162,12 +162,12 @@ def test_model_is_queried_from_the_main_process_once_per_question(
             "llm": {"kind": "local", "model": "scripted", "base_url": f"{server.base_url}/v1"},
             "cache_dir": str(tmp_path / "cache"),
         }
-        report = bake_many(scenes, tmp_path / "a", config=config)
+        report = bake_many(scenes[:2], tmp_path / "a", config=config)
         n_asked = len(server.asked)
-        assert report.count("baked") == N_SCENES, [one.error for one in report.failed]
+        assert report.count("baked") == 2, [one.error for one in report.failed]
         assert 0 < n_asked < report.calls
         assert report.kept > 0
-        again = bake_many(scenes, tmp_path / "b", config=config, executor="processes:1")
+        again = bake_many(scenes[:2], tmp_path / "b", config=config, executor="processes:1")
         assert len(server.asked) == n_asked
         assert again.kept == again.calls
     assert digests(tmp_path / "a") == digests(tmp_path / "b")
@@ -298,7 +298,7 @@ def radios(folder: Path, n: int) -> list[Path]:
 def test_equal_objects_of_several_scenes_share_a_request_on_demand(
     share: bool, executor: str | None, plain: None, tmp_path: Path
 ) -> None:
-    """Three rooms give three requests about radios, or one if shared; this process or a worker draws the pictures."""
+    """Two rooms give two requests about radios, or one if shared; this process or a worker draws the pictures."""
     with serving(by=answered) as server:
         config = {
             "llm": {"kind": "openai", "api_key": KEY, "base_url": f"{server.base_url}/v1"},
@@ -306,15 +306,15 @@ def test_equal_objects_of_several_scenes_share_a_request_on_demand(
             "share_scenes": share,
         }
         report = bake_many(
-            radios(tmp_path / "scenes", 3), tmp_path / "out", config=config, pictures=True, executor=executor
+            radios(tmp_path / "scenes", 2), tmp_path / "out", config=config, pictures=True, executor=executor
         )
         assert not report.failed, report.failed[0].error
         about_objects = [one for one in server.asked if '"vibrates"' in json.dumps(one.body["response_format"])]
         n_asked = len(server.asked)
     asked = [one for one in about_objects if "Your last answer was" not in one.prompt]
     about_radios = [one for one in asked if "radio" in one.prompt.split("Authored object name:")[1].splitlines()[0]]
-    assert len(about_radios) == (1 if share else 3)
-    assert len(asked) == len(about_radios) + 3
+    assert len(about_radios) == (1 if share else 2)
+    assert len(asked) == len(about_radios) + 2
     n_pictures = {sum(part["type"] == "image_url" for part in one.body["messages"][0]["content"]) for one in asked}
     assert n_pictures == {8 if share else 16}
     assert report.calls - report.kept == n_asked - report.stack["RepairBackend"]["repairs"]
@@ -352,7 +352,9 @@ UNGUARDED = """
 import sys
 
 from scene2hap import bake_many
+from scene2hap.baking.many import pool
 
+pool._TRIES = 1
 print(bake_many(sys.argv[2:], sys.argv[1], executor="processes:1").failed[0].error)
 """
 
@@ -390,7 +392,7 @@ def test_bundles_after_a_killed_run_equal_an_undisturbed_run(
 ) -> None:
     program = tmp_path / "run.py"
     program.write_text(PROGRAM)
-    command = [sys.executable, str(program), str(tmp_path / "out"), *map(str, scenes)]
+    command = [sys.executable, str(program), str(tmp_path / "out"), *map(str, scenes[:2])]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
         children = _children(run.pid, seconds=120.0)
         if who == "worker":
@@ -402,11 +404,12 @@ def test_bundles_after_a_killed_run_equal_an_undisturbed_run(
                 os.kill(child, signal.SIGKILL)
         told, errors = run.communicate(timeout=300)
     if who == "worker":
-        assert f"{N_SCENES} scenes baked" in told, errors[-2000:]
+        assert "2 scenes baked" in told, errors[-2000:]
     else:
-        report = bake_many(scenes, tmp_path / "out")
+        report = bake_many(scenes[:2], tmp_path / "out")
         assert not report.failed
-    assert digests(tmp_path / "out") == digests(alone)
+    made, undisturbed = digests(tmp_path / "out"), digests(alone)
+    assert made == {name: digest for name, digest in undisturbed.items() if name.startswith(("room_0", "room_1"))}
 
 
 def _children(parent: int, seconds: float) -> list[int]:

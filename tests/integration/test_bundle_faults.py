@@ -13,7 +13,7 @@ import pytest
 
 SUPPORT = Path(__file__).parents[1] / "support"
 NEVER = 7
-STRIDE = "5"  # every fifth of the similar steps that only write the draft; all of them take four minutes
+STRIDE = "10"  # every tenth of the similar steps that only write the draft; all of them take four minutes
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="each step is tried in a fork")
 

@@ -19,6 +19,7 @@ import soundfile
 
 from command_line_page import PAGE, page
 from foreground import IN_FOREGROUND
+from pasted import run_pasted
 from scene2hap import (
     Box,
     BundleWatch,
@@ -29,6 +30,7 @@ from scene2hap import (
     SceneSnapshot,
     Touch,
     bake,
+    load_scene,
     rebake,
 )
 from scene2hap.audio.files import write_wav
@@ -36,10 +38,13 @@ from scene2hap.baking.config import BakeConfig
 from scene2hap.bundle import BundleWarning
 from scene2hap.cli import main
 from scene2hap.cli.settings import TABLES, setting_rows
-from scene2hap.demo import kitchen_path
 from scene2hap.session import SessionConfig
+from small_kitchen import small_kitchen
 
 TEXT = (Path(__file__).parents[2] / "docs" / "designer.md").read_text(encoding="utf-8")
+
+NAMED = ("handheld_fan", "smartphone", "dining_table", "microwave", "fruit_bowl", "cooker_hood", "saucepan")
+"""The objects of the demo kitchen that the commands of the page name."""
 
 
 def tone(path: Path, frequency_hz: float) -> Path:
@@ -48,11 +53,18 @@ def tone(path: Path, frequency_hz: float) -> Path:
     return path
 
 
+@pytest.fixture(scope="module")
+def baked(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    work = tmp_path_factory.mktemp("baked")
+    scene = load_scene(small_kitchen(work / "kitchen.glb", "floor", "dining_table", "smartphone"))
+    return bake(scene).save(work / "kitchen.bundle")
+
+
 @pytest.fixture
-def folder(kitchen_bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A copy of the kitchen's bundle in the working folder."""
+def folder(baked: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of the bundle of a smartphone on a table in the working folder."""
     monkeypatch.chdir(tmp_path)
-    return shutil.copytree(kitchen_bundle, tmp_path / "kitchen.bundle")
+    return shutil.copytree(baked, tmp_path / "kitchen.bundle")
 
 
 @pytest.fixture
@@ -74,7 +86,7 @@ def outcome(capsys: pytest.CaptureFixture[str], *words: str) -> dict[str, object
 
 def test_designer_page_runs_as_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    shutil.copy(kitchen_path(), "kitchen.glb")
+    small_kitchen(tmp_path / "kitchen.glb", *NAMED, "worktop")
     (tmp_path / "my_sounds").mkdir()
     tone(tmp_path / "my_sounds" / "smartphone buzzing.wav", 180.0)
     tone(tmp_path / "my_fan.wav", 110.0)
@@ -89,7 +101,7 @@ def test_designer_page_runs_as_written(tmp_path: Path, monkeypatch: pytest.Monke
     assert bundle.is_muted("microwave")
     assert "cooker_hood" not in bundle.loops
     (code,) = re.findall(r"```python\n(.*?)```", TEXT, re.DOTALL)
-    subprocess.run([sys.executable, "-W", "error", "-c", code], check=True)
+    run_pasted(code, tmp_path)
 
 
 def test_intensity_changes_the_level_of_one_state(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

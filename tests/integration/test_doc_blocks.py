@@ -1,8 +1,9 @@
 """Every Python block of the documentation is run, by the test of its page or here, or states why it cannot run.
 
 Blocks of a page run in order, in one namespace and one folder. `prepared` fills both with the names and files that
-pages assume: a small kitchen, its bundle, a session, and files. A block after `<!-- not run: why -->` needs a network,
-a device or a game; only its syntax and its names of scene2hap are checked.
+pages assume: a small kitchen, its bundle, a session, and files. The demo's kitchen has only four objects here. A block
+after `<!-- not run: why -->` needs a network, a device or a game; only its syntax and its names of scene2hap are
+checked.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ import trimesh
 import scene2hap
 import scene2hap.engines
 from scene2hap import Box, HapticBundle, HapticSession, MemorySink, Pose, SceneObject, SceneSnapshot, bake
+from small_kitchen import small_kitchen
 
 ROOT = Path(__file__).parents[2]
 RUN_BY = {
@@ -209,6 +211,8 @@ def test_the_blocks_of_a_page_run(
 ) -> None:
     if page == "docs/usd.md":
         pytest.importorskip("pxr", reason="needs the extra usd")
+    small = small_kitchen(tmp_path / "small.glb", "floor", "dining_table", "smartphone", "handheld_fan")
+    monkeypatch.setattr("scene2hap.demo.kitchen_path", lambda: small)
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(tmp_path)
     names = prepared(tmp_path, *kitchen)

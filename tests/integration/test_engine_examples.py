@@ -15,6 +15,7 @@ import soundfile
 from PIL import Image
 
 from host import rasteriser_problem
+from pasted import run_pasted
 from scene2hap.render.safety import FADE_OUT_S
 
 ROOT = Path(__file__).parents[2]
@@ -77,7 +78,8 @@ def kitchen(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[float, dict[
     """The output of the MuJoCo game: (distance [m], gain) by time [s] and hand, and its WAV of 8 s."""
     pytest.importorskip("mujoco", reason="needs the extra mujoco")
     folder = tmp_path_factory.mktemp("kitchen")
-    told = run("mujoco_kitchen.py", "-o", "kitchen.wav", folder=folder)  # headless, as there is no display
+    code = (ROOT / "examples" / "mujoco_kitchen.py").read_text(encoding="utf-8")
+    told = run_pasted(code, folder, "--headless", "-o", "kitchen.wav")
     assert told.endswith("wrote kitchen.wav\n")
     assert {path.name for path in folder.iterdir()} == {"kitchen.wav"}
     rows = re.findall(r"at ([\d.]+) s: left ([\d.]+) m: ([\d.]+); right ([\d.]+) m: ([\d.]+)", told)
@@ -133,6 +135,7 @@ def test_a_picture_of_the_mujoco_kitchen(tmp_path: Path) -> None:
     how = next((how for how in ("egl", "osmesa") if not drawing_problem(how)), None)
     if how is None:
         pytest.skip("MuJoCo needs the system packages libegl1 and libgl1-mesa-dri, or libosmesa6, to draw")
+    # Headless, as there is no display.
     run("mujoco_kitchen.py", "--seconds", "0.1", "--picture", "view.png", folder=tmp_path, MUJOCO_GL=how)
     felt(tmp_path / "kitchen.wav", 0.1)
     with Image.open(tmp_path / "view.png") as picture:

@@ -25,12 +25,12 @@ from scene2hap import (
     SceneObject,
     SceneSnapshot,
     Touch,
-    bake,
 )
 from scene2hap.common.warning import SceneWarning
 from scene2hap.engines import EngineAdapter, EngineLink, MuJoCoLink, Panda3DLink
 from scene2hap.errors import CallError, ConfigError, SceneError, SessionError, UnknownObject
 from scene2hap.testing import check_engine_adapter
+from with_tones import with_tones
 
 PAGE = (Path(__file__).parents[2] / "docs" / "engines.md").read_text(encoding="utf-8")
 MODEL = """
@@ -80,10 +80,10 @@ bundles: dict[str, HapticBundle] = {}
 
 
 def baked(scene: SceneSnapshot) -> HapticBundle:
-    """The bundle of a scene. Equal scenes are baked once."""
+    """The bundle of a scene with tones for sounds. Equal scenes are inferred once."""
     key = scene.to_json()
     if key not in bundles:
-        bundles[key] = bake(scene)
+        bundles[key] = with_tones(scene)
     return bundles[key]
 
 
@@ -551,7 +551,7 @@ from scene2hap import Box, HapticSession, SceneObject, SceneSnapshot, bake
 from scene2hap.engines import MuJoCoLink, Panda3DLink
 assert not {"mujoco", "panda3d"} & sys.modules.keys()
 sys.modules["mujoco"] = sys.modules["panda3d.core"] = None
-scene = SceneSnapshot.build([SceneObject("smartphone", geometry=Box((0.1, 0.1, 0.1)))])
+scene = SceneSnapshot.build([SceneObject("table", geometry=Box((0.1, 0.1, 0.1)))])  # without a sound to be made
 session = HapticSession(scene, bake(scene))
 for link in (lambda: MuJoCoLink(None, None, session), lambda: Panda3DLink(None, session)):
     try:

@@ -16,6 +16,7 @@ import pytest
 from batch_server import answered
 from foreground import IN_FOREGROUND
 from llm_server import Asked, Scripted, serving
+from small_kitchen import small_kitchen
 
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT for one process")
 
@@ -127,7 +128,7 @@ os.execv(sys.executable, [sys.executable, *sys.argv[1:]])
 
 @pytest.mark.parametrize("shell", [IN_FOREGROUND, IN_BACKGROUND], ids=["foreground", "background"])
 def test_sigterm_keeps_the_answers_that_are_paid_for(shell: str, tmp_path: Path) -> None:
-    scene = Path(__file__).parents[2] / "scene2hap" / "demo" / "kitchen.glb"
+    scene = small_kitchen(tmp_path / "kitchen.glb", "smartphone")
     began, go_on = threading.Event(), threading.Event()
 
     def slow(asked: Asked) -> Scripted:

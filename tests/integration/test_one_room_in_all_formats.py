@@ -17,8 +17,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from scene2hap import HapticSession, SceneObject, SceneSnapshot, Touch, bake, load_scene
+from scene2hap import HapticSession, SceneObject, SceneSnapshot, Touch, load_scene
 from scene2hap.scene.copies import copy_key, material_names
+from with_tones import with_tones
 
 Matrix = NDArray[np.float64]
 Z_UP = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])
@@ -305,7 +306,7 @@ def test_objects_are_the_same(write: Writer, seed: int, tmp_path: Path) -> None:
 @pytest.mark.parametrize("write", FORMATS.values(), ids=FORMATS)
 def test_descriptions_and_gains_are_the_same(write: Writer, tmp_path: Path) -> None:
     found, expected = both(write, 1, tmp_path)
-    bundles = [bake(scene) for scene in (found, expected)]
+    bundles = [with_tones(scene) for scene in (found, expected)]
     ours, theirs = (
         [(row.object_category, row.material, [state.name for state in row.states]) for row in bundle.objects.values()]
         for bundle in bundles

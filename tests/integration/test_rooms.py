@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from rooms import ROOMS, room_file
-from scene2hap import HapticSession, Pose, SceneSnapshot, Touch, bake, load_scene
+from scene2hap import HapticSession, Pose, SceneSnapshot, Touch, load_scene
 from scene2hap.contact.graph import ContactGraph
+from with_tones import with_tones
 
 # Some rooms have no sources.
 pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.SceneWarning")
@@ -33,7 +34,7 @@ def test_every_triangle_has_its_composed_place(name: str) -> None:
 @pytest.mark.parametrize("name", ROOMS)
 def test_object_on_a_source_is_felt_and_lifted_object_is_not(name: str) -> None:
     room, scene = ROOMS[name], loaded(name)
-    session = HapticSession(scene, bake(scene))
+    session = HapticSession(scene, with_tones(scene))
     for a, b in sorted(room.contacts):
         for source, other in ((a, b), (b, a)):
             if source not in room.sources or other in room.sources:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import soundfile
+
+from pasted import run_pasted
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "scenes-in-python.md").read_text(encoding="utf-8")
@@ -16,24 +16,17 @@ BLOCKS = re.findall(r"<!-- ci: run -->\n```python\n(.*?)```", PAGE, re.DOTALL)
 GAME = ROOT / "examples" / "game_in_python.py"
 
 
-def run(arguments: list[str], folder: Path) -> str:
-    command = [sys.executable, "-W", "error", *arguments]
-    ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-    assert ran.returncode == 0, ran.stderr
-    return ran.stdout
-
-
 def test_the_code_of_the_page_runs(tmp_path: Path) -> None:
     assert PAGE.count("```") == 2 * len(BLOCKS)
-    printed = [run(["-c", code], tmp_path) for code in BLOCKS]
+    printed = [run_pasted(code, tmp_path) for code in BLOCKS]
     assert printed[-1].startswith("floating ('lamp',) 'lamp' floats")
 
 
 def test_a_game_of_thirty_objects_is_right_to_the_sample(tmp_path: Path) -> None:
     """The game has 90 frames a second, which is not a whole number of samples per frame."""
-    printed = run([str(GAME), "game.wav", "7"], tmp_path)
-    assert "7 s of 30 objects" in printed
-    assert len(GAME.read_text(encoding="utf-8").splitlines()) <= 60
+    code = GAME.read_text(encoding="utf-8")
+    assert "7 s of 30 objects" in run_pasted(code, tmp_path, "game.wav", "7")
+    assert len(code.splitlines()) <= 60
     felt, rate = soundfile.read(tmp_path / "game.wav", always_2d=True)
     fade = len(felt) - 7 * rate  # the fade-out at the stop
     assert 0 <= fade < 0.02 * rate

@@ -29,8 +29,8 @@ def poses(*ids: str, **moved: tuple[float, float, float]) -> np.ndarray:
 
 
 def test_the_game_of_the_protocol_page() -> None:
-    found = check_bridge_client([sys.executable, "-W", "error", game], n_frames=120)
-    assert (found.n_frames, found.n_resumed) == (120, 1)
+    found = check_bridge_client([sys.executable, "-W", "error", game], n_frames=60)
+    assert (found.n_frames, found.n_resumed) == (60, 1)
     assert found.worst < 1e-6
 
 
