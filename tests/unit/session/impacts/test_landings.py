@@ -341,10 +341,12 @@ def slides(rng: np.random.Generator) -> Path:
             yield float(at[0]), RESTS_M, float(at[1])
 
 
-@pytest.mark.parametrize("kind", [rests, jitters, slides])
-def test_resting_sliding_or_jittering_object_does_not_land(kind: Callable[[np.random.Generator], Path]) -> None:
+@pytest.mark.parametrize(("kind", "n_paths"), [(rests, 1), (jitters, 60), (slides, 60)])
+def test_resting_sliding_or_jittering_object_does_not_land(
+    kind: Callable[[np.random.Generator], Path], n_paths: int
+) -> None:
     rng = np.random.default_rng(7)
-    assert [landings_of(kind(rng)) for _ in range(335)] == [[]] * 335
+    assert [landings_of(kind(rng)) for _ in range(n_paths)] == [[]] * n_paths
 
 
 def test_objects_carried_together_do_not_land() -> None:
@@ -625,10 +627,10 @@ def test_object_dropped_in_a_vehicle_lands_once(vehicle: str) -> None:
 @pytest.mark.parametrize("vehicle", ["train", "lift up", "boat"])
 def test_object_dropped_in_a_vehicle_lands_once_though_all_trembles(vehicle: str) -> None:
     """By 0.1 mm and 0.1 mrad, as a physics engine lets objects at rest tremble."""
-    for seed in range(60):
+    for seed in range(12):
         shake = np.random.default_rng(seed)
         frames = []
-        for time_s in (np.arange(40, 90) * PERIOD_S).tolist():
+        for time_s in (np.arange(42, 80) * PERIOD_S).tolist():  # the cup falls from frame 45 to 67
             poses = {}
             for object_id, (x, y, z) in positions_aboard(VEHICLES[vehicle], dropped, time_s).items():
                 a, b, c, d, e, f = (1e-4 * shake.uniform(-1, 1, 6)).tolist()
