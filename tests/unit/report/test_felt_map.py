@@ -67,7 +67,7 @@ def test_the_felt_map_has_the_gains_and_paths_of_a_session(name: str, kitchen_bu
         bundle = HapticBundle.load(kitchen_bundle)
     else:
         bundle = done(bake(load_scene(needed(path), unit_m=unit_m)))
-    felt = felt_map(bundle)
+    felt = felt_map(bundle, most_points=3000)
     session = HapticSession(bundle)
     places = [(patch.object_id, point) for patch in felt.patches for point in patch.points_m.tolist()]
     chosen = np.random.default_rng(5).choice(len(places), N_POINTS, replace=False)
