@@ -18,7 +18,8 @@ from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.tactile.adaptive import Adaptive
 from scene2hap.audio.tactile.stages import StageStream
-from scene2hap.baking.fingerprint import made_by, request_digests
+from scene2hap.baking import fingerprint
+from scene2hap.baking.fingerprint import converter_settings, made_by, request_digests
 from scene2hap.bundle import BundleWarning
 from scene2hap.errors import BundleError, ConfigError
 from scenes import box, scene, tone_loop
@@ -316,6 +317,14 @@ def test_handmade_loops_can_be_converted_again(bundle: HapticBundle) -> None:
     again = rebake(by_hand, {"actuator": "flat", "tactile": "lowpass"})
     loop = next(iter(again.loops["desk_fan"].values()))
     assert loop.frequency_raw_hz == pytest.approx(120.0, abs=1.0)
+
+
+def test_settings_of_a_built_in_converter_are_told_without_reading_installed_packages(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """That takes some 10 ms, several times in each bake."""
+    monkeypatch.setattr(fingerprint, "entry_points", lambda **_: pytest.fail("read"))
+    assert converter_settings(Adaptive(q=3.0))["kind"] == "adaptive"
 
 
 class Guest:
