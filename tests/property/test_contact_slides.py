@@ -91,7 +91,7 @@ def stepped(item: SceneObject, step: tuple[float, float, float, float]) -> Scene
 
 
 @given(PATHS)
-@settings(max_examples=350)
+@settings(max_examples=120)
 def test_incremental_updates_of_a_slide_equal_a_new_graph(
     scene_and_path: tuple[list[SceneObject], list[dict[str, tuple[float, float, float, float]]]],
 ) -> None:
@@ -109,7 +109,7 @@ def test_incremental_updates_of_a_slide_equal_a_new_graph(
 
 
 @given(st.integers(0, 10**6), st.sampled_from([THINGS, INSIDE, CROWD]))
-@settings(max_examples=12)
+@settings(max_examples=8)
 def test_incremental_updates_of_small_steps_equal_a_new_graph(seed: int, items: list[SceneObject]) -> None:
     """Frames of a game: moves of some millimetres, some rotations, and sometimes an object is lifted or put down."""
     rng = np.random.default_rng(seed)

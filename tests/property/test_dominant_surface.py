@@ -10,7 +10,7 @@ from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import Box, DominantSurface, TriMesh
 from scene2hap.scene.surface.dominant_surface import RAYS_PER_SIDE, dominant_surface
 
-common = settings(max_examples=40)
+common = settings(max_examples=20)
 edges = st.floats(0.05, 3.0)
 thin = st.floats(0.002, 0.04)
 fractions = st.floats(0.0, 1.0)
@@ -85,7 +85,7 @@ def test_thickness_of_a_hollow_box_is_its_wall(x: float, y: float, z: float, wal
 
 
 @given(st.floats(0.05, 1.0), st.floats(0.02, 0.2), seeds)
-@settings(max_examples=15)
+@settings(max_examples=8)
 def test_size_of_a_bowl_is_its_rim_and_wall_within_a_ray_spacing(radius: float, wall_share: float, seed: int) -> None:
     """Half a sphere with a wall: chords of the rim, and the median over the area of the vertical wall length."""
     inner = radius * (1 - wall_share)
@@ -111,7 +111,7 @@ def test_a_sheet_has_no_thickness(x: float, y: float, seed: int) -> None:
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 40), st.floats(-8, 5))
-@settings(max_examples=80)
+@settings(max_examples=40)
 def test_any_triangles_have_a_surface_inside_their_box(seed: int, n: int, power: float) -> None:
     """Random triangles give a surface without a warning: orthogonal axes, length >= width, within the diagonal."""
     rng = np.random.default_rng(seed)
@@ -125,7 +125,7 @@ def test_any_triangles_have_a_surface_inside_their_box(seed: int, n: int, power:
 
 
 @given(seeds, st.floats(0.01, 100.0))
-@settings(max_examples=25)
+@settings(max_examples=15)
 def test_surface_scales_with_the_object(seed: int, factor: float) -> None:
     rng = np.random.default_rng(seed)
     hull = trimesh.Trimesh(rng.normal(size=(30, 3)) * [1.0, 0.7, 0.2]).convex_hull

@@ -19,8 +19,8 @@ from scene2hap.export import EXPORTS
 from scene2hap.export.fidelity import fidelity
 
 quick = settings(max_examples=20)
-many = settings(max_examples=int(os.environ.get("SCENE2HAP_EXPORTS", "350")) // 7)
-"""By default 350 exports in total of the seven kinds that have a checker; SCENE2HAP_EXPORTS sets another total."""
+many = settings(max_examples=int(os.environ.get("SCENE2HAP_EXPORTS", "140")) // 7)
+"""By default 140 exports in total of the seven kinds that have a checker; SCENE2HAP_EXPORTS sets another total."""
 seeds = st.integers(0, 2**32 - 1)
 
 

@@ -28,7 +28,7 @@ def answer(component: Component, shape: type[Answer], facts: dict[str, Any]) -> 
     return shape.model_validate_json(reply.text)
 
 
-@settings(max_examples=300)
+@settings(max_examples=120)
 @given(NAMES)
 def test_any_name_is_read_and_unknown_ones_are_unsure(name: str) -> None:
     reading = read_name(name)
@@ -36,7 +36,7 @@ def test_any_name_is_read_and_unknown_ones_are_unsure(name: str) -> None:
     assert reading.row is not None or reading.confidence <= 0.2
 
 
-@settings(max_examples=300)
+@settings(max_examples=120)
 @given(NAMES, SIZES, SIZES, SIZES, st.lists(NAMES, max_size=3))
 def test_any_object_gets_a_valid_answer(name: str, length: float, width: float, height: float, near: list[str]) -> None:
     facts = {"object_name": name, "length_m": length, "width_m": width, "thickness_m": height, "neighbour_names": near}

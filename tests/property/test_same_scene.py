@@ -209,7 +209,7 @@ CASES = [
 
 
 @pytest.mark.parametrize(("change", "model"), CASES, ids=lambda one: getattr(one, "__name__", one))
-@settings(max_examples=3)
+@settings(max_examples=2)
 @given(st.integers(0, 2**32 - 1))
 def test_the_same_scene_in_other_words_has_the_same_gains(
     change: Callable[[list[SceneObject], random.Random], Same], model: str, seed: int

@@ -48,7 +48,7 @@ def play(session: HapticSession, events: list[tuple], blocks: list[int]) -> np.n
     return np.concatenate(parts)
 
 
-@settings(max_examples=30)
+@settings(max_examples=15)
 @given(EVENTS, st.lists(st.integers(1, 4096), min_size=1, max_size=5))
 def test_session_output_does_not_depend_on_block_size(events: list[tuple], blocks: list[int]) -> None:
     whole = play(new_session(), events, [N_FRAMES])
@@ -60,7 +60,7 @@ def test_single_samples_give_the_same_as_one_block() -> None:
     np.testing.assert_allclose(play(new_session(), events, [1]), play(new_session(), events, [N_FRAMES]), atol=1e-6)
 
 
-@settings(max_examples=30)
+@settings(max_examples=15)
 @given(
     EVENTS,
     st.lists(st.floats(-200.0, 120.0), min_size=2, max_size=2),
@@ -154,7 +154,7 @@ def stack() -> tuple[SceneSnapshot, HapticBundle]:
     return snapshot, HapticBundle(snapshot, "room", inferred, {"phone": {"ringing": tone_loop(180)}})
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(
     st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda a: np.linalg.norm(a) > 0.1),
     st.floats(-math.pi, math.pi),
@@ -179,7 +179,7 @@ def test_moving_scene_and_hands_together_changes_nothing(
     assert before.gain("left", "phone") > 0.0
 
 
-@settings(max_examples=25)
+@settings(max_examples=15)
 @given(st.floats(-math.pi, math.pi), st.tuples(*[st.floats(-20.0, 20.0)] * 3), X)
 def test_geometric_contacts_are_invariant_under_common_motion(
     angle: float, shift: tuple[float, float, float], x: float
@@ -219,7 +219,7 @@ def rooms(draw: st.DrawFn) -> tuple[SceneSnapshot, HapticBundle]:
     return snapshot, HapticBundle(snapshot, "room", inferred, loops)
 
 
-@settings(max_examples=25)
+@settings(max_examples=15)
 @given(
     rooms(),
     st.lists(st.lists(st.tuples(st.sampled_from(OBJECTS), PLACES), max_size=3), min_size=1, max_size=4),

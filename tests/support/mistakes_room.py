@@ -86,7 +86,7 @@ class Room:
     def answer(self, code: str) -> Answer:
         """Run lines of code in the folder. Returns their outcome."""
         with _inside(self.folder), contextlib.ExitStack() as life, warnings.catch_warnings():
-            names = self._names(life)
+            names = self._names(life, code)
             warnings.simplefilter("ignore", RuntimeWarning)  # "coroutine was never awaited" is part of a mistake
             warnings.simplefilter("ignore", ResourceWarning)  # and so is a file that nobody closes
             with warnings.catch_warnings(record=True) as caught:
@@ -100,9 +100,8 @@ class Room:
         ours = [one for one in caught if issubclass(one.category, UserWarning)]
         return Answer(ours[0].category, str(ours[0].message)) if ours else Answer()
 
-    def _names(self, life: contextlib.ExitStack) -> dict[str, Any]:
-        sink = scene2hap.MemorySink()
-        started = scene2hap.HapticSession(self.scene, self.bundle, sink=sink)
+    def _names(self, life: contextlib.ExitStack, code: str) -> dict[str, Any]:
+        """The names that the code may use; sessions only if it does, since most code needs none."""
         names = {name: getattr(scene2hap, name) for name in scene2hap.__all__}
         names |= {
             "scene": self.scene,
@@ -115,7 +114,13 @@ class Room:
             "PLATE": scene2hap.Plate(1.0, 0.6, 0.02, "oak"),
             "shell": shell,
         }
-        names |= {"session": scene2hap.HapticSession(self.scene, self.bundle), "sink": sink, "started": started}
+        if "session" in code:
+            names["session"] = scene2hap.HapticSession(self.scene, self.bundle)
+        if "started" in code or "sink" in code:
+            names["sink"] = scene2hap.MemorySink()
+            names["started"] = scene2hap.HapticSession(self.scene, self.bundle, sink=names["sink"])
+            names["started"].start()
+            life.callback(names["started"].stop)
         names["new_object"] = scene2hap.SceneObject(
             "vase",
             "vase",
@@ -123,8 +128,6 @@ class Room:
             self.scene.object("mug").geometry,
             self.scene.object("mug").surface,
         )
-        started.start()
-        life.callback(started.stop)
         return names
 
 

@@ -5,7 +5,9 @@ v(t) = a(t) (sum_k sin(k phi(t)) / k + noise) + room noise,     phi' = 2 pi f s(
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -26,6 +28,25 @@ RISES: dict[str, Callable[[Signal], Signal]] = {
     "coast": lambda x: x**2,
 }
 """Speed over the elapsed share x of a start. A stop is a start in reverse, so "coast" is a coast-down."""
+
+
+WITHOUT_RUNS = (
+    "white",
+    "pink",
+    "brown",
+    "ticks",
+    "rings",
+    "speech",
+    "speech, then a hum",
+    "music",
+    "one event",
+    "a bell that fades for long",
+    "revving",
+    "a cut file, faded over 50 ms",
+    "turned up by 8 dB",
+    "a drop in between",
+)
+"""Names of sounds without a start or a stop."""
 
 
 class Take(NamedTuple):
@@ -98,8 +119,9 @@ def decay(t: Signal, begin_s: float, per_s: float) -> Signal:
     return np.where(t < begin_s, 0.0, np.exp(-per_s * np.maximum(t - begin_s, 0.0)))
 
 
-def without_runs(seed: int) -> dict[str, Signal]:
-    """Sounds of 8 s without a start or a stop."""
+@lru_cache(maxsize=1)  # 14 MB
+def without_runs(seed: int) -> Mapping[str, Signal]:
+    """Sounds of 8 s without a start or a stop, named as in `WITHOUT_RUNS`. Those of the last seed are kept."""
     rng = np.random.default_rng(seed)
     n = 8 * RATE_HZ
     t = np.arange(n) / RATE_HZ
@@ -118,7 +140,7 @@ def without_runs(seed: int) -> dict[str, Signal]:
     )
     ticks = np.sum([decay(t, i * rng.uniform(0.3, 1.0), 200.0) for i in range(8)], axis=0) * np.sin(2 * np.pi * 300 * t)
     fade = np.clip(np.minimum(t, 8 - t) / 0.05, 0.0, 1.0)
-    return {
+    sounds = {
         "white": rng.standard_normal(n),
         "pink": coloured_noise(rng, n, 1.0),
         "brown": coloured_noise(rng, n, 2.0),
@@ -134,3 +156,5 @@ def without_runs(seed: int) -> dict[str, Signal]:
         "turned up by 8 dB": np.interp(t, (0, 1, 2, 8), (0.4, 0.4, 1, 1)) * coloured_noise(rng, n, 1.0),
         "a drop in between": np.interp(t, (0, 1, 1.5, 2, 2.5, 8), (0.02, 1, 1, 0.02, 1, 1)) * hum + room,
     }
+    assert tuple(sounds) == WITHOUT_RUNS
+    return MappingProxyType(sounds)

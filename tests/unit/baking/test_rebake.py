@@ -46,7 +46,7 @@ def subjects(backend: FunctionBackend, component: str = "object_analyzer") -> li
     return sorted(request.subject for request in backend.requests if request.component == component)
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def bundle() -> HapticBundle:
     return bake(SCENE, {"llm": answering()})
 

@@ -14,7 +14,7 @@ from scene2hap.cli import main
 from scene2hap.cli.console import Console
 from scene2hap.cli.tables import show_bundle
 from scene2hap.errors import BundleError, BundleIncomplete
-from scenes import table_with_two_phones
+from scenes import scene, table_with_two_phones, tone_loop
 
 DOCUMENTS = ("bundle.json", "scene.json", "objects.json", "loops.json", "overrides.json")
 ODD: tuple[Any, ...] = (
@@ -43,6 +43,19 @@ def folder(tmp_path: Path) -> Path:
     return bundle.override("alarm", clip=bundle.loops["alarm"]["ringing"].audible).save(tmp_path / "room")
 
 
+@pytest.fixture
+def small_folder(tmp_path: Path) -> Path:
+    """A bundle with one object and one source, both with corrections."""
+    snapshot, whole = table_with_two_phones()
+    kept = ("table", "phone")
+    loops = {"phone": {name: tone_loop(120.0, seconds=0.1) for name in whole.loops["phone"]}}
+    bundle = HapticBundle(
+        scene(*(snapshot.object(name) for name in kept)), "room", {name: whole.objects[name] for name in kept}, loops
+    )
+    bundle = bundle.override("table", material="steel").override("phone", gain_db=-3.0, material="oak")
+    return bundle.override("phone", clip=loops["phone"]["ringing"].audible).save(tmp_path / "room")
+
+
 def read(folder: Path) -> None:
     told = str(folder)
     try:
@@ -61,8 +74,8 @@ def places(document: Any) -> list[tuple[Any, Any]]:
 
 
 @pytest.mark.parametrize("name", DOCUMENTS)
-def test_any_changed_or_removed_value_is_read_or_refused(folder: Path, name: str) -> None:
-    path = folder / name
+def test_any_changed_or_removed_value_is_read_or_refused(small_folder: Path, name: str) -> None:
+    path = small_folder / name
     whole = path.read_text(encoding="utf-8")
     for at in range(len(places(json.loads(whole)))):
         for value in (*ODD[at % 3 :: 3], ...):
@@ -73,7 +86,7 @@ def test_any_changed_or_removed_value_is_read_or_refused(folder: Path, name: str
             else:
                 holder[key] = value
             path.write_text(json.dumps(document), encoding="utf-8")
-            read(folder)
+            read(small_folder)
 
 
 def test_any_readable_bundle_can_be_written(folder: Path) -> None:

@@ -1,12 +1,14 @@
 """Claims: within a program, one session at a time uses a sink, a file or a port."""
 
 import gc
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 import soundfile
 
+from garbage import only_new_garbage
 from scene2hap import HapticSession, MemorySink, Touch, WavSink
 from scene2hap.devices.protocol import SinkFormat
 from scene2hap.devices.serial_amp import SerialAmplifierSink
@@ -18,6 +20,12 @@ from scenes import RATE, table_with_two_phones
 
 FORMAT = SinkFormat(RATE, ("left", "right"))
 ON_PHONE = Touch("left", "phone", (0.1, 0.73, 0.4))
+
+
+@pytest.fixture(autouse=True)
+def _only_new_garbage() -> Iterator[None]:
+    with only_new_garbage():
+        yield
 
 
 def session(sink: object) -> HapticSession:

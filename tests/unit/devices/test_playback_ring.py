@@ -2,15 +2,23 @@
 
 import gc
 import tracemalloc
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 
+from garbage import only_new_garbage
 from scene2hap.devices.playback_ring import PlaybackRing
 
 N_FADE = 40
+
+
+@pytest.fixture(autouse=True)
+def _only_new_garbage() -> Iterator[None]:
+    with only_new_garbage():
+        yield
 
 
 def tone(n: int, begin: int = 0) -> NDArray[np.float32]:

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, strategies as st
+from hypothesis import given, settings, strategies as st
 
 from kernels import both, seeds, steady
 from scene2hap.contact.body import Body
@@ -31,7 +31,7 @@ def turned(rng: np.random.Generator, up_axis: int) -> tuple[float, float, float,
 @pytest.mark.parametrize("up_axis", [1, 2])
 def test_kernels_track_moves_bit_for_bit(up_axis: int, stands: bool) -> None:
     kinds, box, n_within = both("contact.track.Track"), Box((0.3, 0.2, 0.1)).mesh, 0
-    for seed in range(150):
+    for seed in range(60):
         rng = np.random.default_rng(seed)
         shape = shape_of(TriMesh(box.vertices_m + rng.uniform(-0.1, 0.1, 3), box.faces))
         first = turned(rng, up_axis)
@@ -49,7 +49,7 @@ def test_kernels_track_moves_bit_for_bit(up_axis: int, stands: bool) -> None:
             plain, compiled = (track.moved(tuple(position), rotation) for track in tracks)
             assert compiled == plain
             n_within += plain is not None
-    assert n_within > 100
+    assert n_within > 40
 
 
 def mesh(rng: np.random.Generator) -> TriMesh:
@@ -77,7 +77,7 @@ def mesh_pair(rng: np.random.Generator) -> MeshPair:
     return MeshPair(*posed)
 
 
-@steady
+@settings(max_examples=20)  # of eight pairs each
 @given(seed=seeds)
 def test_kernels_find_mesh_distances_bit_for_bit(seed: int) -> None:
     for k in range(8):

@@ -3,6 +3,7 @@
 import gc
 import threading
 import tracemalloc
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 from scipy.signal import butter, sosfiltfilt
 
+from garbage import only_new_garbage
 from loop_reading import read_loop
 from mixed_rows import set_gains
 from scene2hap import AudioClip, Bands
@@ -23,6 +25,12 @@ RAMP_S = 0.01
 RAMP = 80
 RATES = [8000, 48000, 44100, 12000]
 TONES = [(100, 800), (250, 320), (40, 1000), (125, 64), (800, 10)]
+
+
+@pytest.fixture(autouse=True)
+def _only_new_garbage() -> Iterator[None]:
+    with only_new_garbage():
+        yield
 
 
 def tone(frequency_hz: float, n: int, amplitude: float = 0.3) -> AudioClip:
@@ -59,7 +67,7 @@ CHANGES = st.lists(
 BLOCKS = st.lists(st.integers(1, 4096), min_size=1, max_size=8)
 
 
-@settings(max_examples=30)
+@settings(max_examples=12)
 @given(CHANGES, BLOCKS, st.sampled_from(RATES))
 def test_equals_the_slow_mixer_for_any_blocks(
     changes: list[tuple[int, list[float]]], blocks: list[int], rate: int

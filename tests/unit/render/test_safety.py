@@ -91,7 +91,7 @@ def test_a_million_random_gain_jumps() -> None:
         assert_safe(np.concatenate([layer.process(x[i : i + 4801]) for i in range(0, len(x), 4801)]), limits)
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(
     st.sampled_from([1000, 2000, 8000, 44100, 96000]),
     st.sampled_from(list(LIMITS.values())),
@@ -113,7 +113,7 @@ def test_steps_and_deaths_at_any_rate(
     assert_safe(np.concatenate(parts), limits, rate)
 
 
-@settings(max_examples=30)
+@settings(max_examples=12)
 @given(
     st.integers(0, 2**32 - 1),
     st.lists(st.integers(0, 5000), min_size=1, max_size=6).filter(any),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from threading import Event, Thread
@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import trimesh
 
+from garbage import only_new_garbage
 from scene2hap import Box, HapticSession, Pose, SceneObject, SceneSnapshot, TriMesh, bake, bake_object
 from scene2hap.contact.geometry.triangle_tree import TriangleTree
 from scene2hap.contact.graph import ContactGraph
@@ -24,6 +25,12 @@ from scene2hap.session import worker_threads
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.prepared_shapes import PreparedShapes
 from scene2hap.session.worker_threads import start_worker
+
+
+@pytest.fixture(autouse=True)
+def _only_new_garbage() -> Iterator[None]:
+    with only_new_garbage():
+        yield
 
 
 def ball(seed: int, subdivisions: int = 3) -> TriMesh:

@@ -116,7 +116,7 @@ TURNS = st.one_of(
 
 
 @given(one=st.sampled_from(SHAPES), other=st.sampled_from(SHAPES), place=PLACES, turn=TURNS)
-@settings(max_examples=300)
+@settings(max_examples=120)
 def test_distance_and_touch_equal_those_of_all_features(
     one: Shape, other: Shape, place: tuple[float, float, float], turn: tuple[float, float, float, float]
 ) -> None:
@@ -136,7 +136,7 @@ def extent(ends: Floats) -> Floats:
 
 
 @given(one=st.sampled_from(SHAPES), other=st.sampled_from(SHAPES), place=PLACES, turn=TURNS)
-@settings(max_examples=150)
+@settings(max_examples=60)
 def test_contacts_of_all_features_lie_within_those_of_the_selected_features(
     one: Shape, other: Shape, place: tuple[float, float, float], turn: tuple[float, float, float, float]
 ) -> None:

@@ -4,10 +4,12 @@ import dataclasses
 import gc
 import math
 import weakref
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
 
+from garbage import only_new_garbage
 from scene2hap import materials
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation import mass_spring_damper
@@ -21,6 +23,12 @@ from scene2hap.propagation.plate import Plate
 # Values typical of felt, chosen for its softness; 1.5 m x 1 m x 10 mm.
 FELT = dataclasses.replace(materials.lookup("fabric"), name="felt", youngs_modulus_pa=4e6, density_kg_m3=150.0)
 RUG = Plate(1.5, 1.0, 0.01, FELT)
+
+
+@pytest.fixture(autouse=True)
+def _only_new_garbage() -> Iterator[None]:
+    with only_new_garbage():
+        yield
 
 
 @pytest.fixture

@@ -109,7 +109,7 @@ def first_objects(studio: Studio, camera: Camera, selection: Selection, directio
 
 @pytest.mark.parametrize(
     ("name", "every"),
-    [(name, {"aws_house_living": 12}.get(name, 2 if name in OWN else 9)) for name in names()],
+    [(name, {"aws_house_living": 24}.get(name, 3 if name in OWN else 15)) for name in names()],
 )
 def test_outline_encloses_exactly_the_visible_target(name: str, every: int) -> None:
     studio = studio_of(name)

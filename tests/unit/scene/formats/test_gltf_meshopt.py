@@ -298,7 +298,7 @@ def outcome(path: Path) -> str:
 def test_changed_data_raises_only_scene_errors(tmp_path: Path) -> None:
     header, binary = header_of("khr")
     path, rng, outcomes = tmp_path / "scene.glb", np.random.default_rng(7), set()
-    for _ in range(200):
+    for _ in range(60):
         data = np.frombuffer(binary, np.uint8).copy()
         at = rng.integers(0, len(data), size=rng.integers(1, 10))
         data[at] = rng.integers(0, 256, size=len(at))
@@ -311,7 +311,7 @@ def test_changed_extensions_raise_only_scene_errors(tmp_path: Path) -> None:
     header, binary = header_of("quantised")
     odd = [None, True, -1, 0, 1, 2.5, 7, 2**31, 2**63, 1e308, "", "TRIANGLES", "INDICES", "COLOR", [], {}]
     path, rng, outcomes = tmp_path / "scene.glb", np.random.default_rng(8), set()
-    for _ in range(200):
+    for _ in range(60):
         mutated = copy.deepcopy(header)
         views = [row for row in mutated["bufferViews"] if "extensions" in row]
         place = views[rng.integers(len(views))]

@@ -341,10 +341,12 @@ def slides(rng: np.random.Generator) -> Path:
             yield float(at[0]), RESTS_M, float(at[1])
 
 
-@pytest.mark.parametrize("kind", [rests, jitters, slides])
-def test_resting_sliding_or_jittering_object_does_not_land(kind: Callable[[np.random.Generator], Path]) -> None:
+@pytest.mark.parametrize(("kind", "n_paths"), [(rests, 1), (jitters, 60), (slides, 60)])
+def test_resting_sliding_or_jittering_object_does_not_land(
+    kind: Callable[[np.random.Generator], Path], n_paths: int
+) -> None:
     rng = np.random.default_rng(7)
-    assert [landings_of(kind(rng)) for _ in range(335)] == [[]] * 335
+    assert [landings_of(kind(rng)) for _ in range(n_paths)] == [[]] * n_paths
 
 
 def test_objects_carried_together_do_not_land() -> None:
@@ -411,7 +413,7 @@ def test_object_put_down_gently_by_slower_physics_does_not_land(frames_hz: int) 
 
 def test_object_put_down_gently_does_not_land_after_a_long_frame() -> None:
     rng = np.random.default_rng(3)
-    for _ in range(40):
+    for _ in range(20):
         lasts_s = np.where(rng.random(120) < 0.15, rng.uniform(3.0, 6.0, 120), 1.0) * PERIOD_S
         times = np.cumsum(lasts_s)
         frames = [(t, {"cup": Pose((0.0, RESTS_M + lowered_m(t), 0.0))}) for t in times[times < 1.0].tolist()]
@@ -616,7 +618,7 @@ def unequal_times(seed: int) -> list[float]:
 
 @pytest.mark.parametrize("vehicle", VEHICLES)
 def test_object_dropped_in_a_vehicle_lands_once(vehicle: str) -> None:
-    for seed in range(5):
+    for seed in range(3):
         found = aboard(VEHICLES[vehicle], dropped, unequal_times(seed))
         assert [{one.object_id, one.onto} for one in found] == [{"cup", "table"}]
         assert found[0].speed_m_s == pytest.approx(math.sqrt(2 * 9.81 * 0.3), rel=0.3)
@@ -625,10 +627,10 @@ def test_object_dropped_in_a_vehicle_lands_once(vehicle: str) -> None:
 @pytest.mark.parametrize("vehicle", ["train", "lift up", "boat"])
 def test_object_dropped_in_a_vehicle_lands_once_though_all_trembles(vehicle: str) -> None:
     """By 0.1 mm and 0.1 mrad, as a physics engine lets objects at rest tremble."""
-    for seed in range(60):
+    for seed in range(12):
         shake = np.random.default_rng(seed)
         frames = []
-        for time_s in (np.arange(40, 90) * PERIOD_S).tolist():
+        for time_s in (np.arange(42, 80) * PERIOD_S).tolist():  # the cup falls from frame 45 to 67
             poses = {}
             for object_id, (x, y, z) in positions_aboard(VEHICLES[vehicle], dropped, time_s).items():
                 a, b, c, d, e, f = (1e-4 * shake.uniform(-1, 1, 6)).tolist()
@@ -640,7 +642,7 @@ def test_object_dropped_in_a_vehicle_lands_once_though_all_trembles(vehicle: str
 @pytest.mark.parametrize("vehicle", VEHICLES)
 @pytest.mark.parametrize("in_it", [carried, lambda t: (0.0, RESTS_M, 0.0)])
 def test_object_put_down_or_at_rest_in_a_vehicle_does_not_land(vehicle: str, in_it: Motion) -> None:
-    assert [aboard(VEHICLES[vehicle], in_it, unequal_times(seed)) for seed in range(5)] == [[]] * 5
+    assert [aboard(VEHICLES[vehicle], in_it, unequal_times(seed)) for seed in range(3)] == [[]] * 3
 
 
 @pytest.mark.parametrize("rises_m_s", [-2.5, 0.0, 2.5])

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
+from garbage import only_new_garbage
 from scene2hap import AudioClip, HapticLoop, HapticSession, Touch
 from scene2hap.common.cached_while_used import CacheWhileUsed
 from scene2hap.haptics import Bands
@@ -15,6 +16,12 @@ from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
 
 ON_FAN = Touch("left", "fan", (0.8, 0.82, 0.6))
 SECONDS = 60.0
+
+
+@pytest.fixture(autouse=True)
+def _only_new_garbage() -> Iterator[None]:
+    with only_new_garbage():
+        yield
 
 
 class Notes:
