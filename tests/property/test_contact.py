@@ -36,7 +36,7 @@ def things(places: dict[str, Pose]) -> list[SceneObject]:
 
 
 @given(st.fixed_dictionaries(dict.fromkeys(SIZES, poses())), PATHS, st.sampled_from([None, None, 0.0, 0.02]))
-@settings(max_examples=100)
+@settings(max_examples=200)
 def test_incremental_updates_equal_a_new_graph(
     places: dict[str, Pose], path: list[tuple[dict[str, Pose], str | None]], tolerance_m: float | None
 ) -> None:

@@ -37,7 +37,7 @@ SIZES = st.sampled_from([(0.1, 0.1, 0.1), (0.3, 0.2, 0.1), (0.5, 0.02, 0.5)])
 
 
 @given(PLACES, TURNS, TURNS, SIZES, st.tuples(*[st.floats(-0.05, 0.05)] * 2))
-@settings(max_examples=150)
+@settings(max_examples=400)
 def test_free_space_agrees_with_triangles(
     at: tuple[float, float, float],
     turn: float,
@@ -173,7 +173,7 @@ MOVES = st.dictionaries(
 
 
 @given(MOVES, TURNS)
-@settings(max_examples=60)
+@settings(max_examples=150)
 def test_contacts_of_a_room_equal_those_by_triangles_alone(
     moves: dict[str, tuple[tuple[float, float, float], float, float]], turn: float
 ) -> None:
