@@ -140,7 +140,7 @@ def state_after(program: str, built: Path, python: Path, folder: Path) -> dict[s
 
 
 @pytest.mark.skipif(COMPILER is None, reason="no C compiler")
-def test_a_compiled_wheel_runs_on_its_kernels_and_has_no_debug_symbols(
+def test_a_compiled_wheel_runs_the_demo_on_its_kernels_and_has_no_debug_symbols(
     sdist: Path, pure: Path, environment: Path, tmp_path: Path
 ) -> None:
     shutil.unpack_archive(sdist, tmp_path / "unpacked", filter="data")
@@ -154,10 +154,11 @@ def test_a_compiled_wheel_runs_on_its_kernels_and_has_no_debug_symbols(
         libraries = [name for name in packed.namelist() if name.endswith((".so", ".pyd"))]
         assert {name.partition(".")[0] for name in libraries} == {*FEW_KERNELS, "scene2hap/_cyutility"}
         assert not any(b".debug_info" in packed.read(name) for name in libraries)
-        with zipfile.ZipFile(pure) as plain:  # the files that its test shows to be enough for the demo
+        with zipfile.ZipFile(pure) as plain:  # the files that its test shows to be enough without kernels
             needed = {name for name in plain.namelist() if name.startswith("scene2hap/") and not name.endswith(".pyx")}
         assert needed <= set(packed.namelist())
-    twins = state_after(TABLE, built, environment, tmp_path)
+    twins = state_after(DEMO, built, environment, tmp_path)
+    assert (tmp_path / "scene2hap-demo" / "tour.wav").is_file()
     packages = tuple(kernel.replace("/_", ".").replace("/", ".") + "." for kernel in FEW_KERNELS)
     assert {name for name, is_compiled in twins.items() if is_compiled} == {
         name for name in twins if name.startswith(packages)
@@ -165,12 +166,11 @@ def test_a_compiled_wheel_runs_on_its_kernels_and_has_no_debug_symbols(
     assert any(twins.values())
 
 
-def test_a_pure_wheel_is_for_every_machine_and_runs_the_demo_in_plain_python(
+def test_a_pure_wheel_is_for_every_machine_and_runs_in_plain_python(
     pure: Path, environment: Path, tmp_path: Path
 ) -> None:
     assert pure.name.endswith("-py3-none-any.whl")
-    twins = state_after(DEMO, pure, environment, tmp_path)
-    assert (tmp_path / "scene2hap-demo" / "tour.wav").is_file()
+    twins = state_after(TABLE, pure, environment, tmp_path)
     assert not any(twins.values()), [name for name, is_compiled in twins.items() if is_compiled]
 
 
