@@ -394,6 +394,8 @@ class HapticSession:
 
     def resume(self) -> None:
         """Continue all loops from where they stopped; felt from the next update on."""
+        if self._playback.is_paused:
+            self._impacts.forget_motions()
         self._playback.resume()
         self._hand_frames.levels_changed()
 

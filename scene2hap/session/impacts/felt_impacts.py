@@ -149,6 +149,11 @@ class Impacts:
             self._play(impact, burst, felt, hands, profile)
         return impact
 
+    def forget_motions(self) -> None:
+        """Forget how objects moved up to now, see `Landings.forget`."""
+        if self._landings is not None:
+            self._landings.forget()
+
     def begin(self, moved: Mapping[str, Pose], at_frame: int) -> None:
         """Look at the objects that an update is about to move. Call it before the contacts change."""
         if self._landings is not None:
