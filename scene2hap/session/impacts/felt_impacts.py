@@ -217,7 +217,8 @@ class Impacts:
             by_output = {outputs[hand]: row.tolist() for hand, row in felt.items()}
             if not felt or not self._playback.start_burst(waves, by_output, begin):
                 return {}
-            return {hand: self._peak(waves, row, burst.decays_s) for hand, row in felt.items()}
+            # The mix ends at full scale, whatever levels were set.
+            return {hand: min(1.0, self._peak(waves, row, burst.decays_s)) for hand, row in felt.items()}
 
         live = self._live()
         if live is not None:
