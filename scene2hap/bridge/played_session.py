@@ -19,6 +19,7 @@ from scene2hap.errors import BridgeError
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.session import HapticFrame, HapticSession, Touch
 from scene2hap.session.impacts.felt_impacts import Impact
+from scene2hap.session.mix.sources import SourceInfo
 
 LONGEST_FRAME_S = 1.0
 """Most time by which the session's clock advances between two frames, for example while a debugger stops the game."""
@@ -81,7 +82,7 @@ class PlayedSession:
             "objects": [*layout.objects],
             "n_moving": layout.n_moving,
             "hands": [*layout.hands],
-            "sources": [asdict(session.source(one)) for one in layout.sources],
+            "sources": [_source(session.source(one)) for one in layout.sources],
             "n_bands": session.config.bands.n_bands,
             "sequence": self.sequence,
             "watchdog_s": session.config.watchdog_s,
@@ -213,3 +214,8 @@ class PlayedSession:
             )
         if recent:
             self._last_impact = recent[0]
+
+
+def _source(info: SourceInfo) -> dict[str, Any]:
+    """Return the fields of a source, without `is_running`: a change of it sends no message, so that it would be old."""
+    return {name: value for name, value in asdict(info).items() if name != "is_running"}

@@ -84,7 +84,7 @@ class Cancelled(Answer):
 
 
 class Source(BaseModel):
-    """The present state of a vibrating object, the fields of `SourceInfo`."""
+    """The present state of a vibrating object, the fields of `SourceInfo` but for `is_running`."""
 
     id: str
     state: str

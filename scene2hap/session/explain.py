@@ -89,6 +89,11 @@ class FeltSource:
         return replace(self, running=running, running_db=running_db, over_threshold_db=over_db)
 
     @property
+    def is_too_weak(self) -> bool:
+        """Whether it arrives too weakly to be felt."""
+        return self.over_threshold_db is not None and self.over_threshold_db < 0
+
+    @property
     def length_m(self) -> float:
         """Length of the whole path [m]."""
         return sum(step.length_m for step in self.steps)
@@ -97,7 +102,7 @@ class FeltSource:
         volume = f", volume {self.level_db:+z.1f} dB" if abs(self.level_db) >= 0.05 else ""
         state = self.state if self.running == "steady" else f"{self.state}, {self.running}: {self.running_db:+z.1f} dB"
         total = f"{self.source_id} ({state}) {self.gain_db:+z.1f} dB"
-        if self.over_threshold_db is not None and self.over_threshold_db < 0:
+        if self.is_too_weak:
             volume += ", too weak to be felt"
         if self.carriers:
             return f"{total}{volume}: {self.way}"
@@ -117,8 +122,8 @@ class Explanation:
 
     `felt` has the sources that arrive, the strongest first. `impacts` has the impacts of the last second, the latest
     first. `is_current` is false while a worker prepares a newer field, and if the model failed; `failure` then says
-    why. `reasons` are sentences that say why a touching hand feels no source, why the sink plays nothing, or why the
-    model failed; empty otherwise.
+    why. `reasons` are sentences that say why a touching hand feels no source, or not the source that it touches, why
+    the sink plays nothing, or why the model failed; empty otherwise.
     """
 
     hand: str
@@ -206,7 +211,14 @@ class Explainer:
                 felt.append(self._felt(source_id, band, touches[loudest], float(each[loudest])))
         felt.sort(key=lambda item: -(item.gain_db + item.level_db))
         on = tuple(touch.object_id for touch in touches)
-        reasons = [] if felt or not touches else [*self._reasons(set(on), is_paused=is_paused)]
+        reasons: list[str] = []
+        if touches and all(item.is_too_weak for item in felt):
+            reasons.extend(self._reasons(set(on), is_paused=is_paused))
+        elif touches:
+            # A hand on a cold pan expects the pan, also if it feels another source through it.
+            felt_ids = {item.source_id for item in felt}
+            silent = [x for x in dict.fromkeys(on) if x in self._sources and x not in felt_ids]
+            reasons.extend(self._why_silent_each("Touched", silent))
         if failure:
             reasons.insert(0, failure)
         return Explanation(hand, on, tuple(felt), is_current, reasons=tuple(reasons), failure=failure)
@@ -237,12 +249,16 @@ class Explainer:
                     f"Inside it, too far from its surface to touch: {named}; move it to the surface, or add an object "
                     "that touches both."
                 )
+        yield from self._why_silent_each("Connected", near)
+
+    def _why_silent_each(self, how: str, source_ids: Sequence[str]) -> Iterator[str]:
+        """Yield a sentence for each cause for which some of these sources are silent."""
         silent: dict[tuple[str, str], list[str]] = {}
-        for source_id in near:
+        for source_id in source_ids:
             if (cause := self._why_silent(source_id)) is not None:
                 silent.setdefault(cause, []).append(source_id)
         for (why, remedy), several in silent.items():
-            yield f"Connected, but {why}: {first_of([*map(repr, several)], MOST_NAMED)}; {remedy}."
+            yield f"{how}, but {why}: {first_of([*map(repr, several)], MOST_NAMED)}; {remedy}."
 
     def _is_inside(self, object_id: str, other_id: str) -> bool:
         """Return True if the box of an object is inside the box around another one, in the other's frame."""

@@ -291,19 +291,22 @@ class HapticSession:
         """Play a corrected bundle of the same scene: loops that differ are cross-faded, levels change at once.
 
         Objects stay where they are. Sources keep their state if they still have it, and stay on or off. A level or mute
-        of `set_source` stays unless the bundle's value has changed. Objects that the session does not have are left
-        out.
+        of `set_source` stays unless the bundle's value has changed. Objects that the session does not have, and others
+        that were spawned or added with data of their own, are left out.
         Raises: BundleError: another type, or a bundle of another scene. Warns: OtherActuatorWarning: its
         loops were made for another actuator than the session's.
         """
         require_correction(bundle, self._bundle)
         warn_if_other_actuator(bundle, self.config.actuator)
         before, self._bundle = self._bundle, bundle
+        # An id of the bundle may be that of another object now, which the game spawned or added with data of its own.
+        haptics = self._state.haptics
+        own = {x for x in self._state.objects if haptics.get(x) == before.objects.get(x)}
         for object_id in changed_objects(before, bundle):
-            if object_id in self._state.objects:
+            if object_id in own:
                 self._exchange(object_id)
         for object_id in bundle.loops:
-            if object_id in self._sources:
+            if object_id in own and object_id in self._sources:
                 old, new = before.gain_db(object_id), bundle.gain_db(object_id)
                 mute = bundle.is_muted(object_id)
                 self.set_source(
@@ -394,6 +397,8 @@ class HapticSession:
 
     def resume(self) -> None:
         """Continue all loops from where they stopped; felt from the next update on."""
+        if self._playback.is_paused:
+            self._impacts.forget_motions()
         self._playback.resume()
         self._hand_frames.levels_changed()
 

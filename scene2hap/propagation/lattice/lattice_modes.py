@@ -199,12 +199,10 @@ def solve_shifted(lattice: Lattice, factors: Factors, shift_k4: float, forces: F
 
 def _all_below(lattice: Lattice, factors: Factors, shift_k4: float, wanted_k4: float) -> tuple[Floats, Floats]:
     """k^4 (n_modes,) [m^-4], rising, and shapes (n_nodes, n_modes) [1/m] of all modes below a value, and some more."""
-    from scipy.linalg import eigh
-
     n, masses = lattice.n_nodes, lattice.masses
     expected = n_modes_to(lattice.plate, wanted_k4**0.25)
     if expected > DENSE_SHARE * n and np.finfo(float).eps * lattice.stiffest_k4 < _BURIED * wanted_k4:
-        k4, shapes = eigh(lattice.stiffness.toarray(), masses.toarray(), driver="gvd", check_finite=False)
+        k4, shapes = all_modes(lattice.stiffness.toarray(), masses.toarray())
         # Some more than wanted, since `_ritz` removes the rounding error of an eigenvalue.
         shapes = shapes[:, k4 <= (1 + _BURIED) * wanted_k4]
     else:
@@ -215,11 +213,20 @@ def _all_below(lattice: Lattice, factors: Factors, shift_k4: float, wanted_k4: f
 
 def _ritz(lattice: Lattice, shapes: Floats) -> tuple[Floats, Floats]:
     """Modes within the span of shapes (Ritz); their error is the square of the error of the shapes."""
-    from scipy.linalg import eigh
-
     if not shapes.shape[1]:
         return np.empty(0), shapes
     stiffness = shapes.T @ lattice.restoring(shapes)
-    k4, turned = eigh((stiffness + stiffness.T) / 2, shapes.T @ (lattice.masses @ shapes))
+    k4, turned = all_modes((stiffness + stiffness.T) / 2, shapes.T @ (lattice.masses @ shapes))
     k4[: n_rigid_motions(lattice.plate)] = 0.0
     return k4, shapes @ turned
+
+
+def all_modes(stiffness: Floats, masses: Floats) -> tuple[Floats, Floats]:
+    """Solve K v = k^4 A v for dense K and A (n, n). Returns k^4 (n,), rising, and v (n, n) with v^T A v = 1.
+
+    numpy releases the interpreter's lock while it computes. `scipy.linalg.eigh` keeps it, for 0.4 s with a thousand
+    nodes, in which neither the game nor its audio thread would run.
+    """
+    to_unit_masses = np.linalg.inv(np.linalg.cholesky(masses))
+    k4, vectors = np.linalg.eigh(to_unit_masses @ stiffness @ to_unit_masses.T)
+    return k4, to_unit_masses.T @ vectors

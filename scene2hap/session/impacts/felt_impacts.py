@@ -149,6 +149,11 @@ class Impacts:
             self._play(impact, burst, felt, hands, profile)
         return impact
 
+    def forget_motions(self) -> None:
+        """Forget how objects moved up to now, see `Landings.forget`."""
+        if self._landings is not None:
+            self._landings.forget()
+
     def begin(self, moved: Mapping[str, Pose], at_frame: int) -> None:
         """Look at the objects that an update is about to move. Call it before the contacts change."""
         if self._landings is not None:
@@ -212,7 +217,8 @@ class Impacts:
             by_output = {outputs[hand]: row.tolist() for hand, row in felt.items()}
             if not felt or not self._playback.start_burst(waves, by_output, begin):
                 return {}
-            return {hand: self._peak(waves, row, burst.decays_s) for hand, row in felt.items()}
+            # The mix ends at full scale, whatever levels were set.
+            return {hand: min(1.0, self._peak(waves, row, burst.decays_s)) for hand, row in felt.items()}
 
         live = self._live()
         if live is not None:

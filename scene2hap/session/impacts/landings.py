@@ -118,6 +118,12 @@ class Landings:
         """True if an object has moved lately."""
         return bool(self._tracks)
 
+    def forget(self) -> None:
+        """Forget all motions. Call it after a pause: the clock stood still, so that their speeds are unknown."""
+        self._tracks.clear()
+        self._near.clear()
+        self._moved.clear()
+
     def begin(self, moved: Mapping[str, Pose], time_s: float) -> None:
         """Store poses and contacts of the objects that are about to move. Call it before the graph is updated."""
         tracks, beside = self._tracks, self._graph.beside

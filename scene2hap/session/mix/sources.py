@@ -27,14 +27,15 @@ class Level:
 
     def set(self, gain_db: float | None, mute: bool | None) -> None:
         """Set the arguments that are not None. Raises: SessionError: the gain is out of bounds."""
+        # Checked before anything is set: a call that fails changes nothing.
+        is_muted = self.is_muted if mute is None else checks.flag("mute", mute, error=SessionError)
         if gain_db is not None:
             hint = "Use mute for silence."
             # No lower bound: a game turns the position of a fader into decibels, which may be any finite number.
             bounded = checks.number("gain_db", gain_db, "dB", at_most=MAX_GAIN_DB, error=SessionError, hint=hint)
             warn_if_percent(bounded)
             self.gain_db = bounded
-        if mute is not None:
-            self.is_muted = checks.flag("mute", mute, error=SessionError)
+        self.is_muted = is_muted
 
     @property
     def factor(self) -> float:
@@ -55,7 +56,11 @@ class LoopRow:
 @dataclass(frozen=True)
 class SourceInfo:
     """Present state of a source: its state, all of its states, whether it is switched on, the strongest frequency of
-    its vibration in this state [Hz], its level [dB], and whether it is muted."""
+    its vibration in this state [Hz], its level [dB], and whether it is muted.
+
+    is_running : whether it is switched on, not in the off-time of its own cycle, and had the contact that it needs at
+    the last update. It is true from the beginning of a start, and false from that of a stop.
+    """
 
     id: str
     state: str
@@ -64,6 +69,7 @@ class SourceInfo:
     frequency_hz: float
     gain_db: float
     is_muted: bool
+    is_running: bool
 
 
 @dataclass
@@ -158,7 +164,14 @@ class Sources:
         source = self[source_id]
         frequency_hz, level = source.rows[source.state].loop.frequency_tactile_hz, source.level
         return SourceInfo(
-            source_id, source.state, tuple(source.rows), source.is_on, frequency_hz, level.gain_db, level.is_muted
+            source_id,
+            source.state,
+            tuple(source.rows),
+            source.is_on,
+            frequency_hz,
+            level.gain_db,
+            level.is_muted,
+            source.is_running,
         )
 
     def rows(self) -> list[LoopRow]:

@@ -834,3 +834,11 @@ def test_hand_on_a_long_striking_object_feels_the_impact_near_the_struck_point()
 
 def phone_apart() -> SceneObject:
     return SceneObject("smartphone", pose=Pose((0.0, 0.0, 2.0)), geometry=Box((0.07, 0.008, 0.15)))
+
+
+def test_no_impact_is_reported_beyond_full_scale() -> None:
+    made = session()
+    made.update(touches=[Touch("left", "table", NEAR)])
+    made.set_user(gain_db=40.0)
+    assert made.strike("table", STRUCK, speed_m_s=5.0).felt == {"left": 1.0}
+    assert np.abs(made.render_s(0.1)).max() <= 1.0
