@@ -140,7 +140,8 @@ def convert(
 
             with written_whole(drawn) as picture_beside:
                 title = f"{source.name} through {type(built).__name__}"
-                sensation = _sensation(level_db, asked_db, context)
+                is_scaled = level_db is not None and asked_db is not None
+                sensation = Sensation.of(level_db, asked_db, built, context) if is_scaled else None
                 draw_conversion(title, source, beside, (before, after), context.actuator, picture_beside, sensation)
     made = Conversion(
         source,
@@ -206,10 +207,3 @@ def _stacked(converter: TactileConverter, channels: list[Samples]) -> Block:
     if len(set(lengths)) > 1:
         raise AudioError(f"{type(converter).__name__} made {lengths} samples of equal channels.")
     return np.stack(channels, axis=1).astype(np.float32, copy=False)
-
-
-def _sensation(level_db: float | None, asked_db: float | None, context: ConversionContext) -> Sensation | None:
-    """Return how the vibration is felt, None if it was not scaled to a level."""
-    if level_db is None or asked_db is None:
-        return None
-    return Sensation(level_db, asked_db, context.own_hz, context.target_hz or context.own_hz, context.rough_hz)

@@ -58,9 +58,7 @@ def blows(
     return body + click * (0.5 + take.drive) * edge
 
 
-def buzzer(
-    take: Take, *, pitch_hz: float, on_s: float = 0.0, off_s: float = 0.0, on_mains: bool = False
-) -> Signal:
+def buzzer(take: Take, *, pitch_hz: float, on_s: float = 0.0, off_s: float = 0.0, on_mains: bool = False) -> Signal:
     """An armature that hits its stop once per cycle, for `on_s` and `off_s` seconds in turn; always on without them.
 
     One `on_mains` has `pitch_hz` at a mains frequency of 50 Hz.

@@ -50,7 +50,7 @@ class Take:
         return self.shaft_hz(nominal_hz * self.mains_hz / REFERENCE_MAINS_HZ)
 
     def magnet_hz(self, nominal_hz: float) -> float:
-        """Return the frequency of a part that a magnet on the mains moves [Hz], from that at a mains frequency of 50 Hz.
+        """Return the frequency of a part that a magnet on the mains moves [Hz]; `nominal_hz` is that at 50 Hz mains.
 
         It has no deviation: the part moves once or twice in each cycle, in every machine.
         """

@@ -181,7 +181,7 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("toothbrush, facial brush", "", replace(_to_and_fro(260.0), rhythm=Rhythm(4.5, 0.28, 0.02))),
     ("shaver, razor, trimmer, epilator", "", _to_and_fro(110.0, rattle=0.15)),
     ("clipper", "", _MAGNET_CLIPPER),
-    ("hairdryer, hand dryer, heat gun", "", _BLOWER),
+    ("hairdryer, hand dryer, heat gun, hot brush", "", _BLOWER),
     ("massager, massage gun, vibrator, massage mattress, massage pillow, foot spa", "", _SHAKER),
     ("massage chair", "", _geared(48.0, 0.7, 1.1, load=0.2)),
     ("flosser", "", _strokes(23.3, 140.0, 0.015, click=0.05)),
