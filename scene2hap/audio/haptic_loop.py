@@ -77,7 +77,7 @@ def level_doubt(name: str, level_db: float, asked_level_db: float) -> str:
         return ""
     return (
         f"{name} is felt {missing_db:.0f} dB weaker than planned for its intensity, since its peaks or the "
-        "actuator allow no more. Give a smaller intensity, or a sound that is steadier."
+        "actuator allow no more. Give a smaller intensity, a sound that is steadier, or another converter."
     )
 
 
