@@ -31,8 +31,8 @@ class EnvelopeCarrier:
     """Modulate a carrier by the sound's envelope up to `envelope_hz`.
 
     `carrier_hz` None takes the target frequency of the context, else the actuator's resonance, else 250 Hz.
-    Raises: ConfigError: `carrier_hz` is outside the 10 to 1000 Hz that touch feels, or `envelope_hz` is not above 0; or,
-    once the sample rate is known, one is above 0.49 times this rate.
+    Raises: ConfigError: `carrier_hz` is outside the 10 to 1000 Hz that touch feels, or `envelope_hz` is not above 0;
+    or, once the sample rate is known, one is above 0.49 times this rate.
     """
 
     carrier_hz: float | None = None

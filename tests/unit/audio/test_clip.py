@@ -25,7 +25,7 @@ def test_whole_numbers_of_a_file_are_refused(samples: np.ndarray, how: str) -> N
 
 def test_pulses_of_one_and_zero_are_samples() -> None:
     for samples in (np.array([0, 1, 0, -1]), [0, 1, 0, -1]):
-        np.testing.assert_array_equal(AudioClip(samples, 48_000).samples, np.float32([0, 1, 0, -1]))
+        np.testing.assert_array_equal(AudioClip(samples, 48_000).samples, np.array([0, 1, 0, -1], dtype=np.float32))
 
 
 def test_rate_must_be_a_whole_number() -> None:
