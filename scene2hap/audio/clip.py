@@ -70,7 +70,7 @@ class AudioClip:
 
     def __post_init__(self) -> None:
         most_hz = MAX_SAMPLE_RATE_HZ
-        rate = checks.number("sample_rate_hz", self.sample_rate_hz, "Hz", at_least=1, at_most=most_hz, error=AudioError)
+        rate = checks.whole("sample_rate_hz", self.sample_rate_hz, "Hz", at_least=1, at_most=most_hz, error=AudioError)
         # Frozen samples are shared, not copied: one recording may serve many sources.
         samples = self.samples if _is_frozen(self.samples) else _as_float32(self.samples)
         if samples.ndim != 1:
@@ -82,7 +82,7 @@ class AudioClip:
             raise AudioError(f"{self.credit.title!r}: sample {first} is {samples[first]}; every sample must be finite.")
         samples.flags.writeable = False
         object.__setattr__(self, "samples", samples)
-        object.__setattr__(self, "sample_rate_hz", int(rate))
+        object.__setattr__(self, "sample_rate_hz", rate)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, AudioClip):
@@ -132,7 +132,12 @@ def _is_frozen(samples: object) -> bool:
 
 
 def _as_float32(samples: object) -> Samples:
-    """Return a copy as float32; too large values become infinite. Raises: AudioError: they are not numbers."""
+    """Return a copy as float32; too large values become infinite. Raises: AudioError: they are not numbers, or they are
+    whole numbers of a file, such as 16384 of int16."""
     table = checks.floats("samples", samples, "-", error=AudioError)
+    kind = samples.dtype if isinstance(samples, np.ndarray) else None
+    if kind is not None and kind.kind in "iu" and table.size and max(table.max(), -table.min()) > 1.0:
+        how = f"samples / {2 ** (8 * kind.itemsize - 1)}" if kind.kind == "i" else "(samples - 128) / 128"
+        raise AudioError(f"samples are {kind}; they must be floats with a full scale of 1, such as {how}.")
     with np.errstate(over="ignore"):
         return np.array(table, dtype=np.float32)

@@ -129,5 +129,4 @@ def felt_loop(clip: AudioClip, converter: TactileConverter, plan: Plan) -> Hapti
 
     loop = loop_pair(clip, converter, plan.context, at_planned_level)
     level_db = felt_level_db(loop.tactile.samples, loop.tactile.sample_rate_hz, actuator)
-    where = plan.context
-    return replace(loop, felt=Sensation(level_db, plan.level_db, where.own_hz, where.target_hz, where.rough_hz))
+    return replace(loop, felt=Sensation.of(level_db, plan.level_db, converter, plan.context))

@@ -16,6 +16,8 @@ from scene2hap.errors import AudioError
 if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
 
+    from scene2hap.audio.protocol import ConversionContext, TactileConverter
+
 
 @dataclass(frozen=True)
 class Sensation:
@@ -39,6 +41,17 @@ class Sensation:
         for name in ("own_hz", "target_hz", "rough_hz"):
             if getattr(self, name) is not None:
                 checks.number(name, getattr(self, name), "Hz", above=0.0, error=AudioError)
+
+    @classmethod
+    def of(
+        cls, level_db: float, asked_level_db: float, converter: TactileConverter, context: ConversionContext
+    ) -> Sensation:
+        """Return the sensation of a conversion. The context's frequencies are left out where the converter ignores
+        them: a low-pass may have removed the component that stands for the source."""
+        if not getattr(converter, "follows_target", False):
+            return cls(level_db, asked_level_db)
+        rough_hz = context.rough_hz if getattr(converter, "keeps_roughness", False) else None
+        return cls(level_db, asked_level_db, context.own_hz, context.target_hz or context.own_hz, rough_hz)
 
     def __str__(self) -> str:
         weaker = f" ({self.asked_level_db:.1f} dB planned)" if self.asked_level_db - self.level_db >= NOTICED_DB else ""
@@ -64,7 +77,7 @@ def level_doubt(name: str, level_db: float, asked_level_db: float) -> str:
         return ""
     return (
         f"{name} is felt {missing_db:.0f} dB weaker than planned for its intensity, since its peaks or the "
-        "actuator allow no more. Give a smaller intensity, or a sound that is steadier."
+        "actuator allow no more. Give a smaller intensity, a sound that is steadier, or another converter."
     )
 
 

@@ -75,7 +75,7 @@ class TactileStream(Protocol):
 class TactileConverter(Protocol):
     """Interface of converters from sound to a vibrotactile signal.
 
-    Set `follows_target = True` if it moves a source to `target_hz`.
+    Set `follows_target = True` if it moves a source to `target_hz`, and `keeps_roughness = True` if `rough_hz` is felt.
     """
 
     def stream(self, sample_rate_hz: int, context: ConversionContext, /) -> TactileStream:

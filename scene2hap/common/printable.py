@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
@@ -32,11 +33,24 @@ def aligned(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[s
     A heading that begins with ">" sets its column to the right.
     """
     table = [tuple(column.removeprefix(">") for column in columns), *(tuple(map(printable, row)) for row in rows)]
-    widths = [min(max(map(len, cells)), _WIDEST) for cells in zip(*table, strict=True)]
+    widths = [min(max(map(_width, cells)), _WIDEST) for cells in zip(*table, strict=True)]
     to_right = [column.startswith(">") for column in columns]
     for row in table:
         cells = zip(row, widths, to_right, strict=True)
-        yield "  ".join(cell.rjust(width) if right else cell.ljust(width) for cell, width, right in cells).rstrip()
+        yield "  ".join(_padded(*cell) for cell in cells).rstrip()
+
+
+def _padded(cell: str, width: int, to_right: bool) -> str:
+    room = " " * (width - _width(cell))
+    return room + cell if to_right else cell + room
+
+
+def _width(text: str) -> int:
+    """Return the columns that a text takes in a terminal: two for a Chinese or Japanese character, none for an accent
+    that follows its letter."""
+    if text.isascii():
+        return len(text)
+    return sum(0 if unicodedata.combining(c) else 1 + (unicodedata.east_asian_width(c) in "WF") for c in text)
 
 
 def printable_json(text: str) -> str:

@@ -25,7 +25,7 @@ from scene2hap.audio.conversion.reading import SoundReader
 from scene2hap.audio.conversion.writing import FORMATS, check_target, opened_for_writing, write_blocks
 from scene2hap.audio.files import Mixdown, opened_sound, written_whole
 from scene2hap.audio.haptic_loop import LevelWarning, Sensation, level_doubt
-from scene2hap.audio.levels import sensation_level_db
+from scene2hap.audio.levels import FAINTEST_PEAK_DB, sensation_level_db
 from scene2hap.audio.protocol import (
     ConversionContext,
     TactileConverter,
@@ -72,10 +72,21 @@ class Conversion:
 
     @property
     def level_doubt(self) -> str:
-        """The sentence that says by how much the planned level is missed; empty within `NOTICED_DB`."""
-        if self.level_db is None:
+        """The sentence that says by how much the planned level is missed, or why it was not set; empty within
+        `NOTICED_DB`, for `raw` and for digital silence."""
+        if self.asked_level_db is None or self.peak_in == 0.0:
             return ""
-        return level_doubt(str(self.output), self.level_db, self.asked_level_db or 0.0)
+        if self.level_db is not None:
+            return level_doubt(str(self.output), self.level_db, self.asked_level_db)
+        if self.peak_in < 10 ** (FAINTEST_PEAK_DB / 20):
+            return (
+                f"{self.output} keeps its level: {self.source} peaks below {FAINTEST_PEAK_DB:g} dB re full scale, as "
+                "the noise of a recording does. If it is no noise, raise its level first."
+            )
+        return (
+            f"{self.output} is not felt: the converter leaves nothing of {self.source} but noise. Choose another "
+            "converter, such as 'auto'."
+        )
 
 
 def convert(
@@ -102,7 +113,7 @@ def convert(
     files that exist.
     picture : a PNG to draw: spectrograms before and after, and both envelopes; raw : apply the converter alone, without
     removal of the offset, equalization and scaling.
-    Warns: LevelWarning: the planned level is missed by more than `NOTICED_DB`.
+    Warns: LevelWarning: the planned level is missed by more than `NOTICED_DB`, or nothing of the sound is felt.
     Raises: ConfigError: settings that cannot work. AudioError: `source` cannot be read or holds a sample that is not
     finite, `output` exists or cannot be written, or the converter changes the length.
     """
@@ -140,7 +151,9 @@ def convert(
 
             with written_whole(drawn) as picture_beside:
                 title = f"{source.name} through {type(built).__name__}"
-                sensation = _sensation(level_db, asked_db, context)
+                sensation = None
+                if level_db is not None and asked_db is not None:
+                    sensation = Sensation.of(level_db, asked_db, built, context)
                 draw_conversion(title, source, beside, (before, after), context.actuator, picture_beside, sensation)
     made = Conversion(
         source,
@@ -206,10 +219,3 @@ def _stacked(converter: TactileConverter, channels: list[Samples]) -> Block:
     if len(set(lengths)) > 1:
         raise AudioError(f"{type(converter).__name__} made {lengths} samples of equal channels.")
     return np.stack(channels, axis=1).astype(np.float32, copy=False)
-
-
-def _sensation(level_db: float | None, asked_db: float | None, context: ConversionContext) -> Sensation | None:
-    """Return how the vibration is felt, None if it was not scaled to a level."""
-    if level_db is None or asked_db is None:
-        return None
-    return Sensation(level_db, asked_db, context.own_hz, context.target_hz or context.own_hz, context.rough_hz)

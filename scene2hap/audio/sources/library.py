@@ -11,7 +11,7 @@ from pathlib import Path
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import SUFFIXES, read_clip
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES
-from scene2hap.audio.sources.word_stems import noun_phrase, stems
+from scene2hap.audio.sources.word_stems import noun_phrase, says_nothing, stems
 from scene2hap.common import checks
 from scene2hap.common.text_files import read_small_text
 from scene2hap.common.warning import warn_of
@@ -43,13 +43,15 @@ class FolderLibrary:
     def find(self, description: VibrationDescription) -> list[AudioClip]:
         """Return up to five sounds whose words name the object, those with most words of the description first.
 
-        A sound with the right verb but another object does not match: a boiling kettle is no boiling pan. Files that
-        cannot be read are skipped with an `UnreadableSound` warning. Raises: ConfigError: see `FolderLibrary`.
+        A sound with the right verb but another object does not match: a boiling kettle is no boiling pan. Nor does one
+        that shares only a word for anything: a sewing machine is no vending machine. Files that cannot be read are
+        skipped with an `UnreadableSound` warning. Raises: ConfigError: see `FolderLibrary`.
         """
         self._require_folder()
         nouns = noun_phrase(description.object_category)
         wanted = {*nouns, *stems(description.keywords)}
-        matches = [(path, words, credit) for path, words, credit in self._entries() if words.intersection(nouns[-1:])]
+        head = set(nouns[-2:] if nouns and says_nothing(nouns[-1]) else nouns[-1:])
+        matches = [(path, words, credit) for path, words, credit in self._entries() if head and head <= words]
         matches.sort(key=lambda match: (-len(wanted & match[1]), match[0].as_posix()))
         found: list[AudioClip] = []
         for path, _, credit in matches:

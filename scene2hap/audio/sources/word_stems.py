@@ -7,6 +7,7 @@ becomes "machin".
 from __future__ import annotations
 
 import re
+import unicodedata
 from functools import cache
 
 # Spelling (plain English) -> the usual short name of the same thing; only where the last word alone is not enough.
@@ -44,13 +45,18 @@ _SAME_THING = {
     "washing machine": "washer",
 }
 
+_SAYS_NOTHING = (
+    "appliance cleaner device equipment gadget instrument item machine maker object player system thing tool unit"
+)
+
 _AFTER_THE_HEAD = re.compile(r"\b(?:of|on|in|with|for|at|from|to|by|under|near)\b|[(,;:/]")
 _LONGEST_NAME = max(len(name.split()) for name in _SAME_THING)
 
 
 def stems(text: str) -> tuple[str, ...]:
     """Return the stems of a text or file name in order: lower case, without numbers and endings, one for synonyms."""
-    spaced = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", text)
+    # File names of macOS have an accent as a character of its own, which would end the word.
+    spaced = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", unicodedata.normalize("NFC", text))
     words = [_stem(word) for word in re.findall(r"[^\W\d_]+", spaced.lower())]
     found: list[str] = []
     while words:
@@ -69,14 +75,25 @@ def noun_phrase(category: str) -> tuple[str, ...]:
     return next((phrase for phrase in phrases if phrase), ())
 
 
+def says_nothing(word: str) -> bool:
+    """Return True if a word, or its stem, names no kind of thing by itself: "machine" may be any machine."""
+    return _stem(word.lower()) in _empty_stems()
+
+
 def spelled_phrase(category: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return the words of a category's noun phrase, as spelt, and its head: ("washing", "machine"), not "machine"."""
-    phrases = (tuple(re.findall(r"[^\W\d_]+", part)) for part in _AFTER_THE_HEAD.split(category.lower()))
+    spelled = unicodedata.normalize("NFC", category.lower())
+    phrases = (tuple(re.findall(r"[^\W\d_]+", part)) for part in _AFTER_THE_HEAD.split(spelled))
     words = next((phrase for phrase in phrases if phrase), ())
     for n in range(min(_LONGEST_NAME, len(words)), 1, -1):
         if tuple(map(_stem, words[-n:])) in _names():
             return words, words[-n:]
     return words, words[-1:]
+
+
+@cache
+def _empty_stems() -> frozenset[str]:
+    return frozenset(map(_stem, _SAYS_NOTHING.split()))
 
 
 @cache

@@ -43,6 +43,8 @@ _LIVE_DB = 0.0
 class Auto(Adaptive):
     """Convert as `adaptive`, follow the whole sound's level, and add roughness and onsets; the same settings."""
 
+    keeps_roughness = True
+
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
         """Start a conversion at a sample rate."""
         beep_hz = _beep_hz(context)

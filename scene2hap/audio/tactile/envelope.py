@@ -19,6 +19,7 @@ import scipy
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.stages import Signal, SosStage, Stage, StageStream
+from scene2hap.audio.threshold import TACTILE_RANGE_HZ
 from scene2hap.common import checks
 from scene2hap.errors import ConfigError
 
@@ -30,7 +31,8 @@ class EnvelopeCarrier:
     """Modulate a carrier by the sound's envelope up to `envelope_hz`.
 
     `carrier_hz` None takes the target frequency of the context, else the actuator's resonance, else 250 Hz.
-    Raises: ConfigError: a frequency is not above 0; or, once the sample rate is known, above 0.49 times this rate.
+    Raises: ConfigError: `carrier_hz` is outside the 10 to 1000 Hz that touch feels, or `envelope_hz` is not above 0;
+    or, once the sample rate is known, one is above 0.49 times this rate.
     """
 
     carrier_hz: float | None = None
@@ -39,7 +41,8 @@ class EnvelopeCarrier:
     def __post_init__(self) -> None:
         checks.number("envelope_hz", self.envelope_hz, "Hz", above=0.0, error=ConfigError)
         if self.carrier_hz is not None:
-            checks.number("carrier_hz", self.carrier_hz, "Hz", above=0.0, error=ConfigError)
+            low, high = TACTILE_RANGE_HZ
+            checks.number("carrier_hz", self.carrier_hz, "Hz", at_least=low, at_most=high, error=ConfigError)
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
         """Start a conversion at a sample rate."""

@@ -18,6 +18,7 @@ from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.select import select_clip
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.tactile.adaptive import Adaptive
+from scene2hap.audio.tactile.auto import Auto
 from scene2hap.audio.tactile.lowpass import Lowpass
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.haptics import ActuatorProfile, VibrationDescription
@@ -138,6 +139,22 @@ def test_plan_sets_no_target_for_a_converter_without_targets() -> None:
     for plan in plan_scene(list(sources.values()), SvfBandpass(), FLAT):
         assert plan.context.target_hz == plan.context.own_hz
         assert len(plan.context.neighbours_hz) == 6
+
+
+def test_a_loop_claims_no_frequency_that_its_converter_ignores() -> None:
+    """A low-pass removed a pump at 290 Hz, of which `inspect` said: "at 290 Hz, rough at 49 Hz"."""
+    t = np.arange(144_000) / 48_000
+    x = 0.5 * np.sin(2 * np.pi * 49 * t) + 0.4 * np.sin(2 * np.pi * 290 * t)
+    source = SourceClip(AudioClip(x.astype(np.float32), 48_000), 0.4)
+    shown = {}
+    for converter in (Lowpass(), Adaptive(), Auto()):
+        (plan,) = plan_scene([source], converter, FLAT)
+        assert plan.context.rough_hz is not None
+        shown[type(converter).__name__] = felt_loop(source.clip, converter, plan).felt
+    assert (shown["Lowpass"].own_hz, shown["Lowpass"].target_hz, shown["Lowpass"].rough_hz) == (None, None, None)
+    assert shown["Adaptive"].target_hz == pytest.approx(290, abs=1)
+    assert shown["Adaptive"].rough_hz is None, "its band holds the pump alone"
+    assert shown["Auto"].rough_hz == pytest.approx(49, abs=0.5)
 
 
 def test_new_sources_are_placed_apart_from_fixed_loops(baked: dict[str, tuple[Plan, HapticLoop]]) -> None:

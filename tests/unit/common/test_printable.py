@@ -9,7 +9,7 @@ import pytest
 
 from scene2hap import load_scene
 from scene2hap.cli import main
-from scene2hap.common.printable import printable, printable_json, writable
+from scene2hap.common.printable import aligned, printable, printable_json, writable
 
 TITLE = "\x1b]0;owned\x07\x1b[2J"
 NASTY = {"escape": TITLE, "C1": "\x9b2J", "newline": "a\nscene2hap: error: b", "bidi": "\u202eabc", "return": "a\rb"}
@@ -98,3 +98,13 @@ def test_file_name_that_is_not_utf_8_is_shown(tmp_path: Path, capsys: pytest.Cap
     said = capsys.readouterr().out
     assert is_quiet(said)
     said.encode("utf-8")
+
+
+def test_columns_align_in_any_writing() -> None:
+    """A Chinese character is two columns wide, an accent of its own none; names in them shifted the rest of a row."""
+    rows = [("冷蔵庫 fridge", "x"), ("Ku\u0308hlschrank", "x"), ("fan", "x")]
+    heading, wide, accents, plain = aligned(("sound", "s"), rows)
+    assert wide == "冷蔵庫 fridge  x"
+    assert accents == "Ku\u0308hlschrank    x"
+    assert plain == "fan            x"
+    assert heading == "sound          s"

@@ -7,16 +7,12 @@ is too general ("machine").
 from __future__ import annotations
 
 import re
+import unicodedata
 
-from scene2hap.audio.sources.word_stems import spelled_phrase
+from scene2hap.audio.sources.word_stems import says_nothing, spelled_phrase
 from scene2hap.haptics import VibrationDescription
 
 LONGEST_QUERY = 80
-
-_SAYS_NOTHING = frozenset(
-    {"appliance", "device", "equipment", "gadget", "instrument", "item", "machine", "object", "player", "system"}
-    | {"thing", "tool", "unit"}
-)
 
 
 def queries_for(description: VibrationDescription) -> tuple[str, ...]:
@@ -25,10 +21,10 @@ def queries_for(description: VibrationDescription) -> tuple[str, ...]:
     name, head = spelled_phrase(description.object_category)
     spoken = tuple(word for word in keywords if word not in name)
     wordings = [keywords, name, (*head, *spoken), head]
-    kept = [words for words in wordings if words and not (len(words) == 1 and words[0] in _SAYS_NOTHING)]
+    kept = [words for words in wordings if words and not (len(words) == 1 and says_nothing(words[0]))]
     return tuple(dict.fromkeys(" ".join(words)[:LONGEST_QUERY].strip() for words in kept))
 
 
 def _words(text: str) -> tuple[str, ...]:
     """Return words without signs: a minus would exclude the next word, quotation marks would join words to a phrase."""
-    return tuple(re.findall(r"[^\W_]+", text.lower()))
+    return tuple(re.findall(r"[^\W_]+", unicodedata.normalize("NFC", text.lower())))

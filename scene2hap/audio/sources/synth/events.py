@@ -58,12 +58,14 @@ def blows(
     return body + click * (0.5 + take.drive) * edge
 
 
-def buzzer(take: Take, *, pitch_hz: float, on_s: float = 0.0, off_s: float = 0.0) -> Signal:
+def buzzer(take: Take, *, pitch_hz: float, on_s: float = 0.0, off_s: float = 0.0, on_mains: bool = False) -> Signal:
     """An armature that hits its stop once per cycle, for `on_s` and `off_s` seconds in turn; always on without them.
+
+    One `on_mains` has `pitch_hz` at a mains frequency of 50 Hz.
 
     The clear beep of a piezo disc lies in the kilohertz, where nothing is felt; this is the buzz of its case.
     """
-    phi = phase(take.about(pitch_hz, 0.01))
+    phi = phase(take.magnet_hz(pitch_hz) if on_mains else take.about(pitch_hz, 0.01))
     tone = partials(phi, take.roll_off(8, 0.3), take.rng)
     if on_s == 0.0:
         return tone

@@ -6,6 +6,8 @@ are those of real devices.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from scene2hap.audio.sources.synth.rotating import fan
@@ -74,9 +76,15 @@ def ringing_motor(
     return np.asarray(partials(phi, [1.0, 0.1 + 0.15 * take.drive, 0.06], take.rng) * w**2)
 
 
-def reciprocating(take: Take, *, stroke_hz: float, rattle: float = 0.1) -> Signal:
-    """A reciprocating head, blade or piston, which rattles in its guide at both ends of the stroke."""
-    phi = phase(take.shaft_hz(stroke_hz) * (1.0 + 0.002 * wander(take.rng, 2.0)))
+def reciprocating(
+    take: Take, *, stroke_hz: float, rattle: float = 0.1, speed: Callable[[Take, float], float] = Take.shaft_hz
+) -> Signal:
+    """A reciprocating head, blade or piston, which rattles in its guide at both ends of the stroke.
+
+    `speed` is the law of its drive: any motor, an induction motor (`Take.mains_speed_hz`), or a magnet on the mains
+    (`Take.magnet_hz`).
+    """
+    phi = phase(speed(take, stroke_hz) * (1.0 + 0.002 * wander(take.rng, 2.0)))
     stroke = partials(phi, take.roll_off(8, 0.5), take.rng)
     ends = noise(take.rng, 100.0, 2500.0, -3.0) * np.cos(phi) ** 4
     return unit_rms(stroke) + rattle * (0.5 + take.drive) * unit_rms(ends)

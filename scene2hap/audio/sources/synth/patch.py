@@ -22,6 +22,7 @@ SIZE_FACTOR_BOUNDS = (0.75, 4.0 / 3.0)
 class Rhythm:
     """A periodic load, as amplitude modulation: rate [Hz], depth as a share of the amplitude, irregularity of the rate.
 
+    `on_mains`: the rate is that at a mains frequency of 50 Hz, and follows the mains exactly.
     Rates are those of the turning part or the worked material. Depths are assumed: a range below 5 dB for steady
     sounds.
     """
@@ -29,10 +30,12 @@ class Rhythm:
     rate_hz: float
     depth: float
     wavers: float = 0.03
+    on_mains: bool = False
 
     def applied(self, y: Signal, take: Take) -> Signal:
         """Return a voice with this load."""
-        rate = take.about(self.rate_hz) * (1.0 + self.wavers * wander(take.rng))
+        nominal_hz = take.magnet_hz(self.rate_hz) if self.on_mains else take.about(self.rate_hz)
+        rate = nominal_hz * (1.0 + self.wavers * wander(take.rng))
         return np.asarray(y * (1.0 + self.depth * np.cos(phase(rate) + take.rng.uniform(0.0, 2.0 * np.pi))))
 
 

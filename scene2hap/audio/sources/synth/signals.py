@@ -49,6 +49,13 @@ class Take:
         """Return the speed of an induction motor [Hz], from its nominal speed at a mains frequency of 50 Hz."""
         return self.shaft_hz(nominal_hz * self.mains_hz / REFERENCE_MAINS_HZ)
 
+    def magnet_hz(self, nominal_hz: float) -> float:
+        """Return the frequency of a part that a magnet on the mains moves [Hz]; `nominal_hz` is that at 50 Hz mains.
+
+        It has no deviation: the part moves once or twice in each cycle, in every machine.
+        """
+        return nominal_hz * self.mains_hz / REFERENCE_MAINS_HZ
+
     def roll_off(self, n_partials: int, steeper_by: float = 0.0) -> Signal:
         """Return amplitudes k^-slope (n_partials,). The slope is 2.2 when idling and 1.2 at full drive; assumed."""
         return np.asarray(np.arange(1.0, n_partials + 1) ** -(2.2 - self.drive + steeper_by))

@@ -20,6 +20,7 @@ from scene2hap.audio.sources.synth.oscillating import (
 )
 from scene2hap.audio.sources.synth.patch import Patch, Rhythm
 from scene2hap.audio.sources.synth.rotating import compressor, fan, motor, power_tool, pump, spinner, washing
+from scene2hap.audio.sources.synth.signals import Take
 from scene2hap.audio.sources.synth.working import geared, jet, rolling, rotor_slap, stepper
 
 
@@ -73,13 +74,20 @@ def _tool(motor_hz: float, spindle_hz: float, size_m: float, *, loud_hz: float |
 MOTOR = Patch(motor, (46.0, 50.0), 0.4)
 _HUM = Patch(mains_hum, (99.8, 100.2))
 _COMPRESSOR = Patch(compressor, (48.5, 49.5))
-_PISTONS = _to_and_fro(47.5, rattle=0.3)
+# An induction motor of two poles turns the crank.
+_PISTONS = _to_and_fro(47.5, rattle=0.3, speed=Take.mains_speed_hz)
+# A coil pulls the piston of an espresso machine once per cycle, since a diode passes only one half wave.
+_VIBRATORY_PUMP = replace(_to_and_fro(50.0, rattle=0.2, speed=Take.magnet_hz), dominant_hz=(49.8, 50.2))
+# Clippers without a rotating motor make 6000 strokes a minute at 50 Hz, and 7200 at 60 Hz (data sheets, from memory).
+_MAGNET_CLIPPER = replace(_to_and_fro(100.0, rattle=0.15, speed=Take.magnet_hz), dominant_hz=(99.6, 100.4))
 # Bubbles rise in surges.
 _BOILING = Patch(partial(bubbles, largest_hz=90.0, smallest_hz=380.0), (80.0, 420.0), rhythm=Rhythm(4.3, 0.4, 0.02))
 _SIZZLING = Patch(partial(bubbles, largest_hz=150.0, smallest_hz=500.0, per_second=1200.0), (130.0, 550.0))
 _CRACKLING = Patch(
     partial(bubbles, largest_hz=100.0, smallest_hz=400.0, per_second=40.0), (80.0, 440.0), is_steady=False
 )
+# Drops strike a panel of a roof or a window at random, and each lets it ring.
+_RAIN = Patch(partial(bubbles, largest_hz=80.0, smallest_hz=300.0, per_second=450.0), (70.0, 330.0))
 _RINGING_PHONE = Patch(ringing_motor, (175.0, 190.0), is_steady=False)
 _VIBRATION = Patch(vibration_motor, (175.0, 190.0))
 # The escapement of a clockwork ticks four or five times a second.
@@ -87,7 +95,9 @@ _TIMER = _strokes(4.5, 330.0, 0.015, click=0.6)
 _TICK = Patch(partial(blows, per_second=1.0, body_hz=210.0, decay_s=0.03), (180.0, 240.0), 0.3, is_steady=False)
 _ALARM = Patch(partial(buzzer, pitch_hz=240.0, on_s=0.25, off_s=0.25), (235.0, 245.0), is_steady=False)
 _HORN = Patch(partial(buzzer, pitch_hz=220.0), (215.0, 225.0))
-_BUZZER = Patch(partial(buzzer, pitch_hz=100.0), (98.0, 102.0))
+_BUZZER = Patch(partial(buzzer, pitch_hz=100.0, on_mains=True), (99.8, 100.2))
+# Wings of a worker bee beat at some 235 Hz; there are always some at work (from memory).
+_BEES = replace(Patch(partial(buzzer, pitch_hz=235.0), (230.0, 240.0)), rhythm=Rhythm(3.3, 0.28, 0.1))
 _CHIME = _strokes(1.0, 260.0, 0.35, click=0.1)
 # Cats purr at 26.3 Hz, give or take 2, breathing in and out (Frazer Sissom, Rice and Peters, J Zool 223, 1991).
 _PURR = replace(_strokes(26.3, 79.0, 0.012, click=0.05), rhythm=Rhythm(1.4, 0.28, 0.03))
@@ -122,6 +132,7 @@ _CASE_FAN = replace(_fan(26.0, 7, 0.12, rotor=0.6, blade=1.0, flow=2.3), rhythm=
 _CENTRIFUGE = _fan(66.0, 4, 0.4, blade=0.1, flow=0.2)
 _KNEADER = _geared(48.0, 3.5, None, load=0.25)
 _CONVEYOR = _geared(48.0, 9.0, None, rumble=0.4)
+_GEAR_MOTOR = _geared(95.0, 3.0, 0.5)
 _WINCH = _geared(48.0, 6.0, None)
 _ELECTRIC_DRIVE = _geared(90.0, 8.0, 1.5)
 _TUMBLER = replace(_geared(48.0, 0.85, None, load=0.1, thump_hz=70.0), rhythm=Rhythm(0.85, 0.28, 0.0))
@@ -136,10 +147,10 @@ _STEAM = Patch(partial(jet, pump=1.5), (49.5, 50.5))
 # Names (any of them), verbs (any of them; "" for all), patch.
 TABLE: tuple[tuple[str, str, Patch], ...] = (
     # the kitchen
-    ("refrigerator, freezer, minibar, wine cooler, water cooler, dehumidifier", "", _COMPRESSOR),
+    ("refrigerator, freezer, minibar, wine cooler, water cooler, dehumidifier, milk tank", "", _COMPRESSOR),
     ("water dispenser, vending machine, heat pump, ice machine, ice maker", "", _COMPRESSOR),
     # Its transformer feeds a rectifier of one diode: every other half wave pulls harder.
-    ("microwave", "", Patch(microwave, (99.8, 100.2), rhythm=Rhythm(50.0, 0.4, 0.0))),
+    ("microwave", "", Patch(microwave, (99.8, 100.2), rhythm=Rhythm(50.0, 0.4, 0.0, on_mains=True))),
     ("hood", "", _fan(42.0, 7, 0.6, flow=0.7)),
     ("oven, stove, cooktop, cooker, hob, hotplate, toaster", "", _HUM),
     ("cooker, steamer", "boil, bubble, simmer", _BOILING),
@@ -151,10 +162,13 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("grill, barbecue", "", _SIZZLING),
     # Two spray arms pass at 40 turns a minute.
     ("dishwasher", "", Patch(pump, (276.0, 300.0), 0.6, rhythm=Rhythm(1.3, 0.28, 0.0))),
-    ("coffeemaker", "", _to_and_fro(50.0, rattle=0.2)),
-    ("blender, food processor, juicer", "", _BLENDER),
+    ("coffeemaker", "", _VIBRATORY_PUMP),
+    ("blender, food processor, juicer, milk frother", "", _BLENDER),
     ("coffee grinder, coffee mill, spice grinder", "", _COFFEE_GRINDER),
     ("mixer", "", _DOUGH_MIXER),
+    # Its cup circles at 2500 turns a minute (data sheets, from memory).
+    ("vortex mixer", "", _shaker(42.0, 0.2)),
+    ("amalgamator", "", _shaker(70.0, 0.2)),
     ("bread maker", "", _KNEADER),
     ("knife", "", _to_and_fro(50.0, rattle=0.3)),
     # bathroom and laundry
@@ -162,17 +176,21 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("washer", "spin, centrifuge, dry", Patch(spinner, (204.0, 221.0), 0.6)),
     ("washer", "rinse, fill, flow", Patch(partial(washing, drum_hz=0.7, slosh=0.5), (99.8, 100.2))),
     ("washer", "drain, pump", Patch(partial(pump, vanes=3), (138.0, 150.0), 0.6)),
-    ("dryer", "", _TUMBLER),
+    ("dryer, dry cleaner", "", _TUMBLER),
     # Its head passes from tooth to tooth.
-    ("toothbrush", "", replace(_to_and_fro(260.0), rhythm=Rhythm(4.5, 0.28, 0.02))),
-    ("shaver, razor, trimmer, clipper, epilator", "", _to_and_fro(110.0, rattle=0.15)),
-    ("hairdryer, hand dryer, heat gun", "", _BLOWER),
-    ("massager, massage gun, vibrator", "", _SHAKER),
+    ("toothbrush, facial brush", "", replace(_to_and_fro(260.0), rhythm=Rhythm(4.5, 0.28, 0.02))),
+    ("shaver, razor, trimmer, epilator", "", _to_and_fro(110.0, rattle=0.15)),
+    ("clipper", "", _MAGNET_CLIPPER),
+    ("hairdryer, hand dryer, heat gun, hot brush", "", _BLOWER),
+    ("massager, massage gun, vibrator, massage mattress, massage pillow, foot spa", "", _SHAKER),
     ("massage chair", "", _geared(48.0, 0.7, 1.1, load=0.2)),
     ("flosser", "", _strokes(23.3, 140.0, 0.015, click=0.05)),
     # moving air, cooling, cleaning
     ("fan, ventilator, purifier, humidifier, fan heater, aircon, vent", "", _BREEZE),
-    ("handheld fan, hand fan, mini fan, usb fan", "", _fan(80.0, 3, 0.12)),
+    ("heater", "blow", _BREEZE),
+    # Its blades pass too slowly to be felt; its motor of many poles hums.
+    ("ceiling fan", "", _HUM),
+    ("handheld fan, hand fan, mini fan, usb fan, nail dryer", "", _fan(80.0, 3, 0.12)),
     ("computer, laptop, server, console, projector", "", _COMPUTER),
     ("computer fan, case fan", "", _CASE_FAN),
     ("workstation, gpu, network rack, mining rig, supercomputer", "", _COMPUTER),
@@ -197,30 +215,38 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("tv, monitor", "play", _MUSIC),
     ("monitor, scanner, defibrillator", "beep", _ALARM),
     ("transformer, lamp, light, charger, adapter, amplifier, tv, monitor, router, heater, radiator", "", _HUM),
-    ("welding machine, welder, elevator", "", _HUM),
+    ("welding machine, welder, elevator, power plant", "", _HUM),
     ("printer, copier, scanner, fax, plotter, cnc machine", "", _STEPPER),
-    ("pump, fountain, aquarium, boiler", "", _PUMP),
+    ("pump, fountain, aquarium, boiler, pool cleaner, bubbler, parts washer, log splitter", "", _PUMP),
+    ("pressure monitor", "", _PUMP),
     ("toilet, tap, faucet, shower, pipe, bathtub, river, waterfall, stream", "", _WATER),
     ("tap, faucet, shower, pipe", "drip", _DRIP),
     # Metal that slips as it warms.
     ("radiator, heater, pipe", "tick", _TICK),
     ("drone, quadcopter", "", _fan(90.0, 2, 0.3, rotor=0.4, blade=1.0)),
-    ("robot", "", _geared(95.0, 3.0, 0.5)),
+    ("robot, gearbox, wiper, citrus press, bread slicer, electric opener, electric desk", "", _GEAR_MOTOR),
+    ("money counter, claw machine, toll gate, turnstile, automatic door, stairlift", "", _GEAR_MOTOR),
     ("sewing machine", "", _CLATTER),
     # workshop and machines
     ("drill, screwdriver", "", _DRILL),
     ("grinder, sander, polisher, circular saw, saw", "", _GRINDER),
     ("wood router, rotary tool, planer", "", _CUTTER),
     ("jigsaw, reciprocating saw", "", _to_and_fro(46.0, rattle=0.3)),
-    ("jackhammer, rammer, compactor, breaker, hammer drill, demolition hammer", "", _JACKHAMMER),
+    ("jackhammer, breaker, hammer drill, demolition hammer", "", _JACKHAMMER),
+    # 660 blows a minute; its spring spreads each of them (data sheets, from memory).
+    ("rammer", "", _strokes(11.0, 77.0, 0.065)),
+    # An eccentric of 5400 turns a minute (data sheets, from memory).
+    ("compactor", "", _shaker(90.0, 0.7)),
     ("impact driver, impact wrench", "", _strokes(58.0, 174.0, 0.01)),
     ("nail gun, stapler", "", _strokes(1.5, 150.0, 0.04)),
     ("lathe, milling machine", "", _geared(48.0, 12.0, None)),
-    ("compressor, air pump", "", _PISTONS),
+    ("compressor, air pump, oxygen concentrator, refinery", "", _PISTONS),
     ("motor", "", MOTOR),
     ("conveyor, conveyor belt, escalator, travelator, stair climber", "", _CONVEYOR),
     ("treadmill", "", _geared(60.0, 2.6, 1.8, rumble=0.3, thump_hz=75.0)),
     ("hoist, winch, lift, crane", "hum, whir", _WINCH),
+    ("funicular, ferris wheel, carousel, kiddie ride, honey extractor, rotary iron, pumpjack", "", _WINCH),
+    ("power tool", "", _DRILL),
     # garden and building site
     # The cutting chain loads the engine.
     ("chainsaw", "", replace(_engine(150.0, 1, 0.8, revs=0.04, roar=2.0), rhythm=Rhythm(7.0, 0.4, 0.3))),
@@ -231,14 +257,15 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("concrete mixer, cement mixer", "", _geared(48.0, 0.5, None, load=0.1, rumble=0.4, thump_hz=60.0)),
     ("concrete poker", "", _shaker(200.0)),
     ("power plate, vibration plate, road roller", "", _shaker(45.0)),
-    ("pile driver", "", _strokes(0.8, 55.0, 0.15)),
+    ("pile driver, forging hammer, hydraulic press, molding machine", "", _strokes(0.8, 55.0, 0.15)),
     # road, rail, air
     ("car, van, taxi, engine, ambulance, camper, buggy, kart, atv, quad bike, jet ski, snowmobile", "", _CAR),
     ("truck, bus, tractor, excavator, bulldozer, forklift, boat, crane, cement truck", "", _DIESEL),
     ("loader, grader, digger, locomotive, ship, yacht, motorboat, speedboat, harvester, snow plow", "", _DIESEL),
+    ("hovercraft, baler, feed wagon, manure spreader, drilling rig, oil rig", "", _DIESEL),
     ("motorcycle, scooter, moped", "", _engine(24.0, 2, 2.0)),
     ("scooter, forklift, car, bike, skateboard, hoverboard, segway, wheelchair", "hum", _ELECTRIC_DRIVE),
-    ("electric car, bumper car, golf cart", "", _ELECTRIC_DRIVE),
+    ("electric car, bumper car, golf cart, toy train, stacker, submarine, thruster", "", _ELECTRIC_DRIVE),
     ("train, tram, subway, metro", "", _ROLLING),
     # The first shaft of a turbofan at cruise; its blade rate is far above the range of touch.
     ("airplane, aeroplane, plane, jet", "", _fan(75.0, 24, 30.0, blade=0.05, flow=0.8)),
@@ -250,6 +277,9 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("", "ring, beep, alarm", _ALARM),
     ("", "chime, toll, tinkle", _CHIME),
     ("", "buzz", _BUZZER),
+    ("bee, beehive, bee hive", "", _BEES),
+    ("rain", "", _RAIN),
+    ("", "rain, patter", _RAIN),
     ("", "hum", _HUM),
     ("", "vibrate, shake", _VIBRATION),
     ("", "purr", _PURR),

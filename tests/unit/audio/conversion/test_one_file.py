@@ -501,3 +501,20 @@ def test_remainder_of_a_filtered_whine_is_not_amplified(tmp_path: Path, kind: st
         assert made.peak_out < 1e-3
     else:  # the carrier has the requested level
         assert made.level_db == pytest.approx(sensation_level_db(0.3), abs=0.1)
+
+
+def test_a_file_that_is_not_felt_is_said(tmp_path: Path) -> None:
+    """A smooth hum has no roughness in the model of `perception_level`; its silent output came without a word."""
+    t = np.arange(96_000) / 48_000
+    hum = np.sin(2 * np.pi * 100 * t)
+    for name, peak in (("hum", 0.5), ("faint", 5e-4), ("silence", 0.0)):
+        soundfile.write(tmp_path / f"{name}.wav", peak * hum, 48_000, subtype="FLOAT")
+    with pytest.warns(audio.conversion.LevelWarning, match=r"felt\.wav is not felt: .*hum\.wav.*such as 'auto'"):
+        made = audio.convert(tmp_path / "hum.wav", tmp_path / "felt.wav", converter="perception_level")
+    assert made.level_db is None
+    with pytest.warns(audio.conversion.LevelWarning, match=r"faint_felt\.wav keeps its level: .*below -60 dB"):
+        audio.convert(tmp_path / "faint.wav", tmp_path / "faint_felt.wav")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        audio.convert(tmp_path / "silence.wav", tmp_path / "silence_felt.wav")
+        audio.convert(tmp_path / "hum.wav", tmp_path / "raw.wav", converter="perception_level", raw=True)

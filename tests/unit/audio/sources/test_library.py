@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import unicodedata
 import warnings
 from pathlib import Path
 
@@ -142,3 +143,18 @@ def test_library_finds_every_kind_of_sound_that_convert_finds(tmp_path: Path, su
     kind = {".aif": "AIFF", ".aiff": "AIFF", ".caf": "CAF", ".au": "AU"}[suffix.lower()]
     soundfile.write(tmp_path / f"desk fan{suffix}", 0.1 * np.ones(100), 8000, format=kind)
     assert titles(tmp_path, "fan", "fan whirring") == ["desk fan"]
+
+
+def test_words_for_anything_match_no_other_kind_of_thing(tmp_path: Path) -> None:
+    """A vending machine would be felt as the user's sewing machine, and an ice maker as a bread maker."""
+    fill(tmp_path, "sewing machine.wav", "bread maker kneading.wav", "steam cleaner.wav")
+    assert titles(tmp_path, "vending machine", "vending machine humming") == []
+    assert titles(tmp_path, "ice maker", "ice maker humming") == []
+    assert titles(tmp_path, "old Sewing Machines", "sewing machine clattering") == ["sewing machine"]
+    assert len(titles(tmp_path, "machine", "machine humming")) == 1
+
+
+def test_names_of_macos_match(tmp_path: Path) -> None:
+    """They have each accent as a character of its own; "Kühlschrank" became the words "Ku" and "hlschrank"."""
+    fill(tmp_path, unicodedata.normalize("NFD", "Kühlschrank Küche.wav"))
+    assert len(titles(tmp_path, "Kühlschrank", "Kühlschrank brummt")) == 1

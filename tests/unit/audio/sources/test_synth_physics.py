@@ -6,6 +6,7 @@ a voice is made.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 
@@ -302,3 +303,68 @@ def test_states_give_finite_unclipped_and_repeatable_clips(number: int) -> None:
     assert not (is_top[2:] & is_top[1:-1] & is_top[:-2]).any(), "clipped"
     assert abs(y.mean()) < 1e-6
     np.testing.assert_array_equal(made(*STATES[number]).samples, clip.samples)
+
+
+@pytest.mark.parametrize("mains_hz", [50.0, 60.0])
+@pytest.mark.parametrize(
+    ("thing", "verb", "per_cycle"),
+    [("espresso machine", "pumping", 1), ("hair clipper", "buzzing", 2), ("intercom", "buzzing", 2)],
+)
+def test_parts_that_a_magnet_moves_follow_the_mains(thing: str, verb: str, per_cycle: int, mains_hz: float) -> None:
+    """In an earlier version they ran at 50, 110 and 100 Hz, give or take 3 %, on any mains."""
+    for seed in range(3):
+        words = f"{thing} {verb}"
+        machine = VibrationDescription(thing, "on", words, words, 0.5, (0.3, 0.3, 0.3), seed=seed)
+        y = Synthesizer(mains_hz=mains_hz).find(machine)[0].samples.astype(float)
+        assert line_hz(y, 20.0, 1000.0) == pytest.approx(per_cycle * mains_hz, rel=4e-3)
+
+
+@pytest.mark.parametrize("mains_hz", [50.0, 60.0])
+def test_every_other_pull_of_a_microwave_is_stronger(mains_hz: float) -> None:
+    """Its rate was 50 Hz, give or take 3 %, on any mains: an inharmonic line beside each multiple of the hum."""
+    y = Synthesizer(mains_hz=mains_hz).find(asked("microwave", "humming", 0.5))[0].samples.astype(float)
+    assert line_hz(y, 2.6 * mains_hz, 3.4 * mains_hz) == pytest.approx(3 * mains_hz, abs=0.2)
+
+
+def test_compressor_on_the_mains_turns_below_its_frequency() -> None:
+    for mains_hz in (50.0, 60.0):
+        y = Synthesizer(mains_hz=mains_hz).find(asked("compressor", "rattling", 0.8))[0].samples.astype(float)
+        assert 0.91 * mains_hz < line_hz(y, 20.0, 1000.0) < 0.985 * mains_hz
+
+
+@pytest.mark.parametrize(
+    ("thing", "verb", "low_hz", "high_hz"),
+    [
+        ("nail dryer", "buzzing", 60.0, 110.0),  # was a tumble dryer
+        ("vortex mixer", "spinning", 35.0, 60.0),  # was a dough mixer, at 165 Hz
+        ("amalgamator", "buzzing", 60.0, 80.0),  # was a door bell's buzzer
+        ("massage pillow", "buzzing", 40.0, 90.0),
+        ("plate compactor", "pounding", 65.0, 100.0),  # was a jackhammer, as were all presses and hammers
+        ("bee hive", "buzzing", 200.0, 260.0),
+        ("drilling rig", "grinding", 50.0, 110.0),  # was a hand drill, at 250 Hz
+        ("submarine", "rumbling", 80.0, 130.0),  # was a train over sleepers
+        ("power tool", "whirring", 200.0, 300.0),  # was an air fan
+        ("rain", "falling", 60.0, 350.0),  # was an induction motor
+    ],
+)
+def test_things_have_the_pitch_of_their_mechanism(thing: str, verb: str, low_hz: float, high_hz: float) -> None:
+    of_usual_size = replace(asked(thing, verb, 0.5), size_m=(0.0, 0.0, 0.0))
+    y = Synthesizer().find(of_usual_size)[0].samples.astype(float)
+    assert low_hz <= line_hz(y, 20.0, 1000.0) <= high_hz
+
+
+@pytest.mark.parametrize(
+    ("thing", "verb", "rate_hz"), [("rammer", "pounding", 11.0), ("forging hammer", "pounding", 0.8)]
+)
+def test_hammers_strike_at_the_rate_of_their_kind(thing: str, verb: str, rate_hz: float) -> None:
+    """All of them struck 25 times a second, as a jackhammer does."""
+    y = Synthesizer().find(asked(thing, verb, 0.7))[0].samples.astype(float)
+    f, magnitude = spectrum(np.abs(y))
+    slow = (f > 0.5) & (f < 40.0)
+    assert float(f[slow][np.argmax(magnitude[slow])]) == pytest.approx(rate_hz, rel=0.1)
+
+
+def test_rain_is_no_machine() -> None:
+    y = Synthesizer().find(asked("roof", "raining", 0.3))[0].samples.astype(float)
+    f, magnitude = spectrum(y)
+    assert prominence_db(y, float(f[np.argmax(magnitude)])) < 25.0

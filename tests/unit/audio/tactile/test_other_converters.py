@@ -109,6 +109,13 @@ def test_envelope_carrier_uses_the_configured_frequency(
     assert amplitude(converter.stream(RATE, context).process(tone(700)), carrier_hz) == pytest.approx(0.5, rel=0.01)
 
 
+@pytest.mark.parametrize("carrier_hz", [0.25, 5.0, 2000.0])
+def test_envelope_carrier_that_nobody_feels_is_refused(carrier_hz: float) -> None:
+    """0.25, which is meant in kHz, gave a vibration that nobody feels."""
+    with pytest.raises(ConfigError, match=r"carrier_hz is .* Hz; it must be at"):
+        EnvelopeCarrier(carrier_hz)
+
+
 def test_perception_level_plays_two_sines_and_nothing_else() -> None:
     t = np.arange(4 * RATE) / RATE
     x = rough(t).astype(np.float32)
@@ -154,10 +161,14 @@ def test_an_oscillator_keeps_its_phase_for_hours() -> None:
 
 
 def test_bad_settings_are_refused() -> None:
-    for wrong in (lambda: Lowpass(0.0), lambda: EnvelopeCarrier(-1.0), lambda: PerceptionLevel(full_scale=0.0)):
+    for wrong in (
+        lambda: Lowpass(0.0),
+        lambda: EnvelopeCarrier(envelope_hz=-1.0),
+        lambda: PerceptionLevel(full_scale=0.0),
+    ):
         with pytest.raises(ConfigError, match="above 0"):
             wrong()
-    for converter in (Lowpass(5000.0), EnvelopeCarrier(5000.0)):
+    for converter in (Lowpass(5000.0), EnvelopeCarrier(envelope_hz=5000.0)):
         with pytest.raises(ConfigError, match="at most 3920"):
             converter.stream(RATE, PLAIN)
     with pytest.raises(ConfigError, match="low_hz is 4000 Hz"):

@@ -199,3 +199,16 @@ def test_version_changes_with_every_file_of_the_lexicon(monkeypatch: pytest.Monk
             assert lexicon_table.version() != before, changed
     monkeypatch.undo()
     lexicon_table.version.cache_clear()
+
+
+@pytest.mark.parametrize("name", ["yogurt_maker", "baby_monitor", "Babyphone"])
+def test_things_without_a_moving_part_are_silent(name: str) -> None:
+    """A yogurt maker whirred, and a baby monitor hummed."""
+    row = read_name(name).row
+    assert row is not None
+    assert not row.vibrates
+
+
+def test_a_stirrer_is_weaker_than_a_centrifuge() -> None:
+    (stirrer,), (centrifuge,) = ([row for row in table() if row.noun == n] for n in ("magnetic stirrer", "centrifuge"))
+    assert stirrer.states[0].intensity < 0.5 * centrifuge.states[0].intensity
