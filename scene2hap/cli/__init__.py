@@ -107,7 +107,7 @@ class CommandParser(argparse.ArgumentParser):
         if self._module is not None:
             module = import_module(self._module)
             self._module = None
-            self.description = module.__doc__
+            self.description: str | None = module.__doc__
             module.add_arguments(self)
             self.set_defaults(run=module.run)
 
