@@ -58,7 +58,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         "udp": arguments.udp or None,
     }
     tables = read_settings(arguments.settings, "bridge", "bake", "session")
-    server = BridgeServer(BridgeConfig.parse({**tables, **tables.pop("bridge")}, **given), owns_process=True)
+    own = tables.pop("bridge")
+    server = BridgeServer(BridgeConfig.parse({**tables, **own}, **given), owns_process=True)
     with warnings_to_clients():
         asyncio.run(_serve(server, console))
     return {"url": server.url}
