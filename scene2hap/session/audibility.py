@@ -21,6 +21,7 @@ from collections.abc import Hashable, Sequence, Set
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.compiled import compiled
 from scene2hap.propagation.live import CostsByHand, PathCostField
 from scene2hap.propagation.protocol import Excitation, checked_gains
 from scene2hap.session.config import SkipConfig
@@ -110,6 +111,7 @@ class CutoffCost:
         return _last_of(self._arrives.take(self._column, axis=1) * levels >= SILENT)
 
 
+@compiled
 def silence(gains: NDArray[np.float32], least: NDArray[np.float32], columns: Sequence[int] | None) -> int:
     """Zero all gains (n, n_columns, k) below the minimum `least` (m, k) of their source. Returns how many were zeroed.
 
@@ -121,6 +123,7 @@ def silence(gains: NDArray[np.float32], least: NDArray[np.float32], columns: Seq
     return n_silent
 
 
+@compiled
 def sifted(
     gains: NDArray[np.float32], peaks: NDArray[np.float32] | None, least_felt: float, least: NDArray[np.float32] | None
 ) -> tuple[NDArray[np.float32], list[int], int, int]:
@@ -145,6 +148,7 @@ def sifted(
     return np.ascontiguousarray(kept[:, columns]), columns, n_below, n_silent
 
 
+@compiled
 def within(
     costs: CostsByHand, cutoff: Sequence[float], sought: Sequence[Set[int]]
 ) -> tuple[list[int], list[list[float]], int]:
