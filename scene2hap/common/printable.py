@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
@@ -32,25 +31,18 @@ def aligned(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[s
 
     A heading that begins with ">" sets its column to the right.
     """
+    from rich.cells import cell_len  # here, since a game that prints no table need not load rich
+
     table = [tuple(column.removeprefix(">") for column in columns), *(tuple(map(printable, row)) for row in rows)]
-    widths = [min(max(map(_width, cells)), _WIDEST) for cells in zip(*table, strict=True)]
+    widths = [min(max(map(cell_len, cells)), _WIDEST) for cells in zip(*table, strict=True)]
     to_right = [column.startswith(">") for column in columns]
     for row in table:
         cells = zip(row, widths, to_right, strict=True)
-        yield "  ".join(_padded(*cell) for cell in cells).rstrip()
-
-
-def _padded(cell: str, width: int, to_right: bool) -> str:
-    room = " " * (width - _width(cell))
-    return room + cell if to_right else cell + room
-
-
-def _width(text: str) -> int:
-    """Return the columns that a text takes in a terminal: two for a Chinese or Japanese character, none for an accent
-    that follows its letter."""
-    if text.isascii():
-        return len(text)
-    return sum(0 if unicodedata.combining(c) else 1 + (unicodedata.east_asian_width(c) in "WF") for c in text)
+        padded = []
+        for cell, width, right in cells:
+            room = " " * (width - cell_len(cell))
+            padded.append(room + cell if right else cell + room)
+        yield "  ".join(padded).rstrip()
 
 
 def printable_json(text: str) -> str:
