@@ -40,6 +40,12 @@ def dot(one: Sequence[float], other: Sequence[float]) -> float:
     return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
 
 
+def cross(one: Sequence[float], other: Sequence[float]) -> Vector:
+    """Return the cross product of two vectors."""
+    (a, b, c), (d, e, f) = one, other
+    return (b * f - c * e, c * d - a * f, a * e - b * d)
+
+
 def cross_2d(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the cross products (...) of vectors (..., 2), or of the first two coordinates of longer ones."""
     product: NDArray[np.float64] = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]

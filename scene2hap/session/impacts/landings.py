@@ -21,12 +21,11 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
 from scene2hap.contact.rule import TOUCH_M
-from scene2hap.scene.geometry import Vector, dot
+from scene2hap.scene.geometry import Vector, cross, dot
 from scene2hap.scene.pose import Pose
 from scene2hap.session.impacts.motion_track import LEAST_TRAVEL_M, LEFT, MOST_STEPS, STILL, MotionTrack, in_world
 from scene2hap.session.impacts.slams import Slam, Way
@@ -416,25 +415,26 @@ class Landings:
         Engines let small objects sink into others. Once the middle of an object is below the surface, the contact seems
         to be on its other side. The side from which the object came, since an update, is then the right one.
         """
-        middle = self._graph.pose(object_id).to_world([self._middle_m(object_id)])[0]
-        outward = np.array(point_m) - middle
-        normal = self._given_normal(object_id, other, outward, junction)
-        x, y, z = middle.tolist()
-        came = self._nearing(object_id, other, (x, y, z), since, self._n_updates)
-        if dot(outward.tolist(), normal) > 0 > dot((outward + came).tolist(), normal):
+        middle_m = in_world(self._middle_m(object_id), self._graph.pose(object_id))
+        outward = _difference(point_m, middle_m)
+        normal = _given_normal(object_id, other, outward, junction)
+        came = self._nearing(object_id, other, middle_m, since, self._n_updates)
+        outside = dot(outward, normal)
+        if outside > 0 > outside + dot(came, normal):
             return -normal[0], -normal[1], -normal[2]
         return normal
 
-    def _given_normal(self, object_id: str, other: str, outward: NDArray[np.float64], junction: Junction) -> Vector:
-        for normal in junction.normals:
-            if normal is not None:
-                x, y, z = normal
-                return normal if object_id < other else (-x, -y, -z)
-        across = _normal_of_plane(junction.points_m)
-        if across is not None and (height := float(across @ outward)):
-            outward = across * height
-        x, y, z = outward.tolist()
-        return _direction((x, y, z))
+
+def _given_normal(object_id: str, other: str, outward: Vector, junction: Junction) -> Vector:
+    for normal in junction.normals:
+        if normal is not None:
+            x, y, z = normal
+            return normal if object_id < other else (-x, -y, -z)
+    across = _normal_of_plane(junction.points_m)
+    if across is not None and (height := dot(across, outward)):
+        x, y, z = across
+        return across if height > 0 else (-x, -y, -z)
+    return _direction(outward)
 
 
 def _direction(way: Vector) -> Vector:
@@ -443,13 +443,18 @@ def _direction(way: Vector) -> Vector:
     return (way[0] / length, way[1] / length, way[2] / length) if length > 0 else STILL
 
 
-def _normal_of_plane(points_m: Sequence[Vector]) -> NDArray[np.float64] | None:
-    """Unit normal, of either sign, of the plane that three or more points span; None if they span none."""
+def _normal_of_plane(points_m: Sequence[Vector]) -> Vector | None:
+    """Unit normal, of either sign, of the plane through three of three or more points that are far apart; None if these
+    lie on a line, or another one does not lie on the plane."""
     if len(points_m) < _PLANE_POINTS:
         return None
-    points = np.array(points_m)
-    _, (_, width, thickness), axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
-    return axes[2] if width > _LEAST_WIDTH_M and thickness < _FLAT * width else None
+    ways = [_difference(point, points_m[0]) for point in points_m]
+    longest = max(ways, key=lambda way: dot(way, way))
+    across = max((cross(longest, way) for way in ways), key=lambda area: dot(area, area))
+    width_m = math.hypot(*across) / (math.hypot(*longest) or 1.0)
+    normal = _direction(across)
+    heights = [dot(normal, way) for way in ways]
+    return normal if width_m > _LEAST_WIDTH_M and max(heights) - min(heights) < _FLAT * width_m else None
 
 
 def _difference(one: Vector, other: Vector) -> Vector:
