@@ -50,7 +50,7 @@ def joints_of(
 
     Parameters: source_kg : mass with which each source moves [kg].
     """
-    springs = _springs(network, carriers, law, source_kg)
+    springs = _in_all_directions(network, _springs(network, carriers, law, source_kg))
     touching: dict[str, list[Contact]] = defaultdict(list)
     for pair, several in springs.items():
         for object_id in pair:
@@ -95,6 +95,36 @@ def _springs(
         own = [(one, stiffness(*materials, one.area_m2, preloads_n[pair])) for one in contacts]
         springs[pair] = own + pressed.get(pair, [])
     return springs
+
+
+def _in_all_directions(
+    network: ContactNetwork, springs: Mapping[Pair, Sequence[tuple[Contact, Spring]]]
+) -> dict[Pair, list[tuple[Contact, Spring]]]:
+    """Give a normal to each contact without one: those of the bodies that have axes, see `_axes`.
+
+    Surfaces that are flush or intersect are joined, and yield equally in the plane of both normals. If these differ by
+    more than `LEVEL`, one spring acts along a normal, and one across it in this plane.
+    """
+    found: dict[Pair, list[tuple[Contact, Spring]]] = {}
+    for (a, b), several in springs.items():
+        if any(contact.normal is None for contact, _ in several):
+            normals = _both_ways(*(own and own[2] for own in (_axes(network, a), _axes(network, b))))
+            several = [
+                (one if normal is None or one.normal is not None else replace(one, normal=normal), spring)
+                for one, spring in several
+                for normal in (normals if one.normal is None else normals[:1])
+            ]
+        found[a, b] = list(several)
+    return found
+
+
+def _both_ways(a: Direction | None, b: Direction | None) -> list[Direction | None]:
+    """Orthogonal unit vectors that span the plane of two normals; one if they are parallel or one is None."""
+    if a is None or b is None or abs(dot(a, b)) >= LEVEL:
+        return [b if a is None else a]
+    across = np.array(b) - dot(a, b) * np.array(a)
+    x, y, z = (across / np.linalg.norm(across)).tolist()
+    return [a, (x, y, z)]
 
 
 def legs_of(network: ContactNetwork, object_id: str, plate: Plate) -> list[tuple[float, float]]:
@@ -186,8 +216,8 @@ def _directions_on(
     x, y, z = own
     found = []
     for contact in contacts:
-        way = _way(contact, axes, level)
-        along = z if object_id in level or contact.normal is None else way
+        way = _way(contact)
+        along = z if object_id in level else way
         sign = -1.0 if dot(along, way) < _AGAINST else 1.0
         if object_id in level:
             found.append(NORMAL if sign > 0 else REVERSED)
@@ -197,20 +227,14 @@ def _directions_on(
     return found
 
 
-def _way(contact: Contact, axes: Mapping[str, Axes | None], level: Mapping[str, Direction]) -> Direction:
+def _way(contact: Contact) -> Direction:
     """Direction of the spring at a contact, the same for both of its bodies.
 
-    Both signs give the same spring, with two exceptions. A body without axes has to move in phase at contacts above and
-    below it, so that the largest component is positive. Without a contact's normal, a body perpendicular to this
-    direction is pushed along its own normal. Then the axes of the world must not decide on the sign, since the gains of
-    a turned scene would differ.
+    Both signs give the same spring, with one exception: a body without axes has to move in phase at contacts above and
+    below it, so that the largest component is positive.
     """
-    pair = (contact.a, contact.b)
-    own_normals = [own[2] for x in pair if (own := axes.get(x))]
-    normals = [contact.normal, *(level.get(x) for x in pair), *own_normals]
-    x, y, z = next((one for one in normals if one is not None), (0.0, 0.0, 1.0))
-    keeps_sign = contact.normal is None and len(own_normals) == len(pair)
-    return (x, y, z) if keeps_sign or max(x, y, z, key=abs) > 0 else (-x, -y, -z)
+    x, y, z = contact.normal or (0.0, 0.0, 1.0)
+    return (x, y, z) if max(x, y, z, key=abs) > 0 else (-x, -y, -z)
 
 
 def _merged(joints: Sequence[Joint]) -> list[Joint]:
