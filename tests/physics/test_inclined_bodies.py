@@ -324,3 +324,36 @@ def test_a_contact_without_normal_is_a_spring_along_each_of_two_normals() -> Non
     phone = Excitation("phone", 90.0, 90.0, 0.2)
     carriers = ModalPlate().prepare(network, [phone], Bands.dominant()).carriers("left", "phone", 0)
     assert len({(one.by, one.point_m) for one in carriers}) == len(carriers)
+
+
+@pytest.mark.parametrize("normal", [(0.0, -1.0, 0.0), None])
+def test_what_hangs_beside_a_wall_loads_it_along_the_vertical(normal: tuple[float, float, float] | None) -> None:
+    """Far below all modes, a phone on a cabinet, the cabinet and the loose wall that holds it move up as one mass."""
+    cabinet, wall = Plate(0.8, 0.6, 0.3, OAK, object_mass_kg=15.0), Plate(3.0, 2.4, 0.15, OAK)
+    poses = {"cabinet": Pose((-0.4, 0.15, 0.9), UPRIGHT), "wall": Pose((-1.5, 0.375, 0.0), UPRIGHT)}
+    contacts = [Contact("phone", "cabinet", (x, y, 1.5), (0, 0, -1)) for x in (-0.05, 0.05) for y in (0.1, 0.2)]
+    contacts += [Contact("wall", "cabinet", (x, 0.3, z), normal) for x in (-0.4, 0.4) for z in (0.9, 1.5)]
+    network = ContactNetwork({"cabinet": cabinet, "wall": wall}, contacts, poses, up_axis="z")
+    phone = Excitation("phone", 1.0, 1.0, 0.2)
+    field = ModalPlate(outside_domain="ignore").prepare(network, [phone], Bands.dominant())
+    middle = np.array([[0.0, 0.375, 1.2]])
+    mass_kg = 0.2 + cabinet.moving_mass_kg + wall.moving_mass_kg
+    # The cabinet's weight is beside the wall's plane, which tilts the wall; its middle only moves up.
+    assert field.attenuation("wall", middle)[0, 0, 0] == pytest.approx(0.2 / mass_kg, rel=0.05)
+
+
+def test_only_what_stands_on_nothing_is_held_by_its_side() -> None:
+    """A cabinet on a floor that touches a wall is not held there; the same cabinet without the floor is."""
+    upright = Plate(0.8, 0.6, 0.3, OAK, object_mass_kg=15.0)
+    bodies = {"cabinet": upright, "wall": Plate(3.0, 2.4, 0.15, OAK), "floor": Plate(3.0, 3.0, 0.1, OAK)}
+    poses = {
+        "cabinet": Pose((-0.4, 0.15, 0.0), UPRIGHT),
+        "wall": Pose((-1.5, 0.375, 0.0), UPRIGHT),
+        "floor": Pose((-1.5, -1.5, -0.05)),
+    }
+    beside = [Contact("wall", "cabinet", (x, 0.3, z), (0, -1, 0)) for x in (-0.4, 0.4) for z in (0.0, 0.6)]
+    feet = [Contact("cabinet", "floor", (x, y, 0.0), (0, 0, -1)) for x in (-0.4, 0.4) for y in (0.0, 0.3)]
+    for contacts, springs in (([*beside, *feet], 4), (beside, 8)):
+        network = ContactNetwork(bodies, contacts, poses, up_axis="z")
+        joints = joints_of(network, bodies.keys(), ContactLaw(), {})
+        assert sum({one.a, one.b} == {"cabinet", "wall"} for one in joints) == springs

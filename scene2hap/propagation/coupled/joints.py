@@ -20,7 +20,7 @@ from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.protocol import Body, ContactNetwork, placing_of
 from scene2hap.scene.geometry import dot
-from scene2hap.scene.objects import Contact
+from scene2hap.scene.objects import VERTICAL, Contact
 from scene2hap.scene.pose import Pose
 
 SAME_POINT_M = 1e-6
@@ -50,7 +50,7 @@ def joints_of(
 
     Parameters: source_kg : mass with which each source moves [kg].
     """
-    springs = _in_all_directions(network, _springs(network, carriers, law, source_kg))
+    springs = _springs(network, carriers, law, source_kg)
     touching: dict[str, list[Contact]] = defaultdict(list)
     for pair, several in springs.items():
         for object_id in pair:
@@ -77,7 +77,10 @@ def joints_of(
 def _springs(
     network: ContactNetwork, carriers: Collection[str], law: ContactLaw, source_kg: Mapping[str, float]
 ) -> dict[Pair, list[tuple[Contact, Spring]]]:
-    """Contacts of each pair, those below a pressed layer last, each with its spring at a weight of 1."""
+    """Contacts of each pair, those below a pressed layer last, each with its spring at a weight of 1.
+
+    A contact is there once for each of its `_ways`, with that as its normal.
+    """
     pairs: dict[Pair, list[Contact]] = defaultdict(list)
     for contact in network.contacts:
         if contact.weight > 0 and contact.a in carriers and contact.b in carriers:
@@ -92,39 +95,43 @@ def _springs(
     for pair, contacts in pairs.items():
         upper = standing[pair].upper
         materials = [_material(network, object_id, stands=object_id == upper) for object_id in pair]
-        own = [(one, stiffness(*materials, one.area_m2, preloads_n[pair])) for one in contacts]
+        own = [
+            (
+                one if way is one.normal else replace(one, normal=way),
+                stiffness(*materials, one.area_m2, preloads_n[pair]),
+            )
+            for one in contacts
+            for way in _ways(network, one, hangs=standing[pair].hangs)
+        ]
         springs[pair] = own + pressed.get(pair, [])
     return springs
 
 
-def _in_all_directions(
-    network: ContactNetwork, springs: Mapping[Pair, Sequence[tuple[Contact, Spring]]]
-) -> dict[Pair, list[tuple[Contact, Spring]]]:
-    """Give a normal to each contact without one: those of the bodies that have axes, see `_axes`.
+def _ways(network: ContactNetwork, contact: Contact, *, hangs: bool) -> list[Direction | None]:
+    """Directions of the springs of a contact, orthogonal unit vectors; None if no body has axes, see `_axes`.
 
-    Surfaces that are flush or intersect are joined, and yield equally in the plane of both normals. If these differ by
-    more than `LEVEL`, one spring acts along a normal, and one across it in this plane.
+    A contact without a normal, where surfaces are flush or intersect, joins them: in the plane of both of their normals
+    it yields equally. A contact of an object that hangs holds it along the vertical too, by screws or by friction; that
+    is nearly as stiff (Mindlin: 2 (1 - nu) / (2 - nu) of the stiffness along the normal, 0.8).
     """
-    found: dict[Pair, list[tuple[Contact, Spring]]] = {}
-    for (a, b), several in springs.items():
-        if any(contact.normal is None for contact, _ in several):
-            normals = _both_ways(*(own and own[2] for own in (_axes(network, a), _axes(network, b))))
-            several = [
-                (one if normal is None or one.normal is not None else replace(one, normal=normal), spring)
-                for one, spring in several
-                for normal in (normals if one.normal is None else normals[:1])
-            ]
-        found[a, b] = list(several)
+    if contact.normal is not None:
+        along = [contact.normal]
+    else:
+        along = [own[2] for own in (_axes(network, contact.a), _axes(network, contact.b)) if own is not None]
+    if hangs and along and network.up_axis is not None:
+        along.append((0.0, 1.0, 0.0) if VERTICAL[network.up_axis] == 1 else (0.0, 0.0, 1.0))
+    if len(along) < 2:
+        return [*along] or [None]
+    found: list[Direction | None] = [along[0]]
+    basis = np.array(along[:1])
+    for one in along[1:]:
+        across = one - (basis @ one) @ basis
+        length = float(np.linalg.norm(across))
+        if length**2 > 1 - LEVEL**2:
+            x, y, z = (across / length).tolist()
+            found.append((x, y, z))
+            basis = np.vstack([basis, across / length])
     return found
-
-
-def _both_ways(a: Direction | None, b: Direction | None) -> list[Direction | None]:
-    """Orthogonal unit vectors that span the plane of two normals; one if they are parallel or one is None."""
-    if a is None or b is None or abs(dot(a, b)) >= LEVEL:
-        return [b if a is None else a]
-    across = np.array(b) - dot(a, b) * np.array(a)
-    x, y, z = (across / np.linalg.norm(across)).tolist()
-    return [a, (x, y, z)]
 
 
 def legs_of(network: ContactNetwork, object_id: str, plate: Plate) -> list[tuple[float, float]]:
