@@ -38,32 +38,36 @@ def plot_field(
     title: str = "",
     path: str | os.PathLike[str] | None = None,
 ) -> Figure:
-    """Draw the attenuation over a plate as a map in dB, with the contacts of the source and a touch.
+    """Draw the attenuation over a plate as a map in dB, within its outline, with contacts of the source and a touch.
 
     Parameters: field : prepared from `network`, by any model; object_id : a plate of the network; source_id : one of
     the field's sources, by default the first; band : index of the field's band; touch_m : (3,) or (n, 3) [m], world;
     path : file to write as well, in the format of its suffix, such as .png.
     Returns: a matplotlib Figure.
-    Raises: MissingExtra: matplotlib is not installed. ModelDomainError: no plate of that id, no such source or band.
+    Raises: MissingExtra: matplotlib is not installed. ModelDomainError: no plate of that id, no such source or
+    band, or a field without sources.
     """
     plate = network.bodies.get(object_id)
     if not isinstance(plate, Plate):
         plates = sorted(key for key, body in network.bodies.items() if isinstance(body, Plate))
         raise ModelDomainError(f"object {object_id!r} is no plate of this network; its plates are {plates}.")
-    source = source_id if source_id is not None else next(iter(field.source_ids), None)
+    if not field.source_ids:
+        raise ModelDomainError("the field has no source, so there is nothing to draw; prepare it with an Excitation.")
+    source = field.source_ids[0] if source_id is None else source_id
     if source not in field.source_ids:
         raise ModelDomainError(f"source {source!r} is none of this field's; they are {list(field.source_ids)}.")
     gains = _map(field, network, object_id, plate)
     last = gains.shape[3] - 1
     chosen = checks.whole("band", band, "-", at_least=0, at_most=last, error=ModelDomainError)
-    level_db = 20 * np.log10(np.maximum(gains[:, :, field.source_ids.index(source), chosen], 1e-30))
+    drawn = gains[:, :, field.source_ids.index(source), chosen]
+    loudest = 20 * math.log10(np.nanmax(drawn, initial=0.0) or 1.0)  # where nothing arrives, the source's own level
+    level_db = 20 * np.log10(np.maximum(drawn, 1e-30))
 
     figure = new_figure(7.5, 1.4 + 5.5 * min(1.2, max(0.25, plate.width_m / plate.length_m)))
     axes = figure.add_subplot()
-    loudest = float(level_db.max())
     image = axes.imshow(
         level_db.T, origin="lower", extent=(0, plate.length_m, 0, plate.width_m), cmap="viridis",
-        vmin=loudest - RANGE_DB, vmax=loudest, interpolation="bilinear",
+        vmin=loudest - RANGE_DB, vmax=loudest, interpolation="bilinear" if plate.outline is None else "nearest",
     )  # fmt: skip
     figure.colorbar(image, ax=axes, label="attenuation [dB]", shrink=0.8)
     feet = _feet(network, object_id, source)
@@ -81,7 +85,7 @@ def plot_field(
 
 
 def _map(field: PropagationField, network: ContactNetwork, object_id: str, plate: Plate) -> NDArray[np.float64]:
-    """Gains at the centres of cells (n_x, n_y, n_sources, n_bands)."""
+    """Gains at the centres of cells (n_x, n_y, n_sources, n_bands), NaN beside the plate's outline."""
     longer = max(plate.length_m, plate.width_m)
     x, y = (
         (np.arange(n) + 0.5) / n * side
@@ -91,6 +95,8 @@ def _map(field: PropagationField, network: ContactNetwork, object_id: str, plate
     points = np.stack([*np.meshgrid(x, y, indexing="ij"), np.zeros((len(x), len(y)))], axis=-1).reshape(-1, 3)
     pose = network.poses.get(object_id)
     gains = field.attenuation(object_id, points if pose is None else pose.to_world(points))
+    if plate.outline is not None:
+        gains = np.where(plate.outline.holds(points[:, :2])[:, None, None], gains, np.nan)
     return gains.reshape(len(x), len(y), *gains.shape[1:])
 
 

@@ -148,7 +148,7 @@ def on_a_table(normal: tuple[float, float, float] | None, pose: Pose) -> Contact
 def test_only_bodies_pushed_in_their_plane_are_inclined() -> None:
     phone = Excitation("phone", 150.0, 150.0, 0.2)
     level, upright = Pose((0.3, 0.2, 0.0)), Pose((0.3, 0.3, 0.0), UPRIGHT)
-    for pose, normal, expected in ((level, UP, set()), (upright, None, set()), (upright, UP, {"board"})):
+    for pose, normal, expected in ((level, UP, set()), (upright, None, {"table", "board"}), (upright, UP, {"board"})):
         network = on_a_table(normal, pose)
         assert inclined_in(joints_of(network, {"table", "board", "phone"}, ContactLaw(), {})) == expected
     at = [[0.9, 0.5, 0.0]]
@@ -161,11 +161,11 @@ def test_only_bodies_pushed_in_their_plane_are_inclined() -> None:
 
 def test_an_upright_board_does_not_bend() -> None:
     """With equal forces on both halves of its edge, the board moves up and down as one rigid piece, equally at all
-    heights. The same board driven in bending varies more over its height."""
+    heights. The same board, driven aslant, bends, and varies more over its height."""
     phone, at = Excitation("phone", 60.0, 60.0, 0.2), [[0.6, 0.3, height] for height in (0.02, 0.15, 0.3, 0.38)]
     inclined_field, bending_field = (
         ModalPlate().prepare(on_a_table(normal, Pose((0.3, 0.3, 0.0), UPRIGHT)), [phone], Bands.third_octaves(20, 400))
-        for normal in (UP, None)
+        for normal in (UP, (0.0, -(0.5**0.5), 0.5**0.5))
     )
     stiff, bent = (20 * np.log10(one.attenuation("board", at)[:, 0]) for one in (inclined_field, bending_field))
     assert np.ptp(stiff, axis=0).max() < 2.0 < np.ptp(bent, axis=0).max()
@@ -267,3 +267,93 @@ def test_gains_do_not_step_while_a_board_is_tilted(degrees: float) -> None:
             levels.append(20 * np.log10(field.attenuation("board", at)[:, 0, 0]))
         steps.append(np.abs(levels[1] - levels[0]).max())
     assert max(steps) < 0.1
+
+
+TURNED = {False: (0.0, -(0.5**0.5), 0.0, 0.5**0.5), True: (0.5**0.5, 0.0, 0.5**0.5, 0.0)}
+"""Rotations of a plate whose length points up, with its normal along -x or along x."""
+
+
+def board_between_sides(*, is_turned: bool = False) -> ContactNetwork:
+    """A shelf board, flush between two sides that stand on a base, with a phone beside its middle.
+
+    Parameters: is_turned : the frame of the left side is turned over.
+    """
+    board, side, base = Plate(1.0, 0.3, 0.02, OAK), Plate(0.8, 0.3, 0.02, OAK), Plate(1.2, 0.4, 0.03, OAK)
+    poses = {"board": Pose((-0.5, -0.15, 0.5)), "base": Pose((-0.6, -0.2, -0.015))}
+    contacts = [Contact("phone", "board", (x, y, 0.51), (0, 0, -1)) for x in (-0.03, 0.03) for y in (-0.05, 0.05)]
+    for name, sign in (("left", -1), ("right", 1)):
+        along = TURNED[is_turned and name == "left"]
+        middle = Pose((0.51 * sign, 0.0, 0.4), along)
+        poses[name] = middle.compose(Pose((-0.4, -0.15, 0.0)))
+        contacts += [Contact("board", name, (0.5 * sign, y, z)) for y in (-0.15, 0.15) for z in (0.49, 0.51)]
+        for at in (0.5, 0.52):
+            contacts += [Contact(name, "base", (at * sign, y, 0.0), (0, 0, -1)) for y in (-0.15, 0.15)]
+    return ContactNetwork({"board": board, "left": side, "right": side, "base": base}, contacts, poses, up_axis="z")
+
+
+def felt_between_sides(network: ContactNetwork, frequency_hz: float) -> np.ndarray:
+    phone = Excitation("phone", frequency_hz, frequency_hz, 0.2)
+    field = ModalPlate().prepare(network, [phone], Bands.dominant())
+    places = {"board": (0.2, 0.1, 0.5), "left": (-0.51, 0.1, 0.4), "base": (0.1, 0.1, 0.0)}
+    return np.array([field.attenuation(name, np.array([place]))[0, 0, 0] for name, place in places.items()])
+
+
+def test_joined_plates_pass_on_forces_along_each_normal() -> None:
+    """Far below all modes, a board and the sides and base that carry it move as one mass: m / (m + M), by momentum."""
+    network = board_between_sides()
+    mass_kg = sum(body.moving_mass_kg for body in network.bodies.values())
+    felt_db = 20 * np.log10(felt_between_sides(network, 1.0))
+    assert felt_db == pytest.approx(np.full(3, 20 * math.log10(0.2 / (0.2 + mass_kg))), abs=0.1)
+
+
+@pytest.mark.parametrize("frequency_hz", [40.0, 160.0, 400.0])
+def test_joined_plates_may_be_described_from_either_side(frequency_hz: float) -> None:
+    """The normals of perpendicular, joined plates do not decide on a phase."""
+    as_it_is, turned = (felt_between_sides(board_between_sides(is_turned=x), frequency_hz) for x in (False, True))
+    np.testing.assert_allclose(turned, as_it_is, rtol=1e-3)
+
+
+def test_a_contact_without_normal_is_a_spring_along_each_of_two_normals() -> None:
+    network = board_between_sides()
+    ids = {"phone", *network.bodies}
+    joined = [one for one in joints_of(network, ids, ContactLaw(), {}) if {one.a, one.b} == {"board", "left"}]
+    ways = {(one.point_a_m, one.along_a.height_m, *np.abs(np.round(one.along_a[:3], 9)).tolist()) for one in joined}
+    # At each of four places: along the board's own normal, and along the side's normal, which is the board's length.
+    assert {way[2:] for way in ways} == {(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)}
+    assert len(joined) == len(ways) == 2 * len({way[:2] for way in ways}) == 8
+    phone = Excitation("phone", 90.0, 90.0, 0.2)
+    carriers = ModalPlate().prepare(network, [phone], Bands.dominant()).carriers("left", "phone", 0)
+    assert len({(one.by, one.point_m) for one in carriers}) == len(carriers)
+
+
+@pytest.mark.parametrize("normal", [(0.0, -1.0, 0.0), None])
+def test_what_hangs_beside_a_wall_loads_it_along_the_vertical(normal: tuple[float, float, float] | None) -> None:
+    """Far below all modes, a phone on a cabinet, the cabinet and the loose wall that holds it move up as one mass."""
+    cabinet, wall = Plate(0.8, 0.6, 0.3, OAK, object_mass_kg=15.0), Plate(3.0, 2.4, 0.15, OAK)
+    poses = {"cabinet": Pose((-0.4, 0.15, 0.9), UPRIGHT), "wall": Pose((-1.5, 0.375, 0.0), UPRIGHT)}
+    contacts = [Contact("phone", "cabinet", (x, y, 1.5), (0, 0, -1)) for x in (-0.05, 0.05) for y in (0.1, 0.2)]
+    contacts += [Contact("wall", "cabinet", (x, 0.3, z), normal) for x in (-0.4, 0.4) for z in (0.9, 1.5)]
+    network = ContactNetwork({"cabinet": cabinet, "wall": wall}, contacts, poses, up_axis="z")
+    phone = Excitation("phone", 1.0, 1.0, 0.2)
+    field = ModalPlate(outside_domain="ignore").prepare(network, [phone], Bands.dominant())
+    middle = np.array([[0.0, 0.375, 1.2]])
+    mass_kg = 0.2 + cabinet.moving_mass_kg + wall.moving_mass_kg
+    # The cabinet's weight is beside the wall's plane, which tilts the wall; its middle only moves up.
+    assert field.attenuation("wall", middle)[0, 0, 0] == pytest.approx(0.2 / mass_kg, rel=0.05)
+
+
+def test_only_what_stands_on_nothing_is_held_by_its_side() -> None:
+    """A cabinet on a floor that touches a wall is not held there; the same cabinet without the floor is."""
+    upright = Plate(0.8, 0.6, 0.3, OAK, object_mass_kg=15.0)
+    bodies = {"cabinet": upright, "wall": Plate(3.0, 2.4, 0.15, OAK), "floor": Plate(3.0, 3.0, 0.1, OAK)}
+    poses = {
+        "cabinet": Pose((-0.4, 0.15, 0.0), UPRIGHT),
+        "wall": Pose((-1.5, 0.375, 0.0), UPRIGHT),
+        "floor": Pose((-1.5, -1.5, -0.05)),
+    }
+    beside = [Contact("wall", "cabinet", (x, 0.3, z), (0, -1, 0)) for x in (-0.4, 0.4) for z in (0.0, 0.6)]
+    feet = [Contact("cabinet", "floor", (x, y, 0.0), (0, 0, -1)) for x in (-0.4, 0.4) for y in (0.0, 0.3)]
+    for contacts, springs in (([*beside, *feet], 4), (beside, 8)):
+        network = ContactNetwork(bodies, contacts, poses, up_axis="z")
+        joints = joints_of(network, bodies.keys(), ContactLaw(), {})
+        assert sum({one.a, one.b} == {"cabinet", "wall"} for one in joints) == springs

@@ -20,7 +20,7 @@ from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.protocol import Body, ContactNetwork, placing_of
 from scene2hap.scene.geometry import dot
-from scene2hap.scene.objects import Contact
+from scene2hap.scene.objects import VERTICAL, Contact
 from scene2hap.scene.pose import Pose
 
 SAME_POINT_M = 1e-6
@@ -77,7 +77,10 @@ def joints_of(
 def _springs(
     network: ContactNetwork, carriers: Collection[str], law: ContactLaw, source_kg: Mapping[str, float]
 ) -> dict[Pair, list[tuple[Contact, Spring]]]:
-    """Contacts of each pair, those below a pressed layer last, each with its spring at a weight of 1."""
+    """Contacts of each pair, those below a pressed layer last, each with its spring at a weight of 1.
+
+    A contact is there once for each of its `_ways`, with that as its normal.
+    """
     pairs: dict[Pair, list[Contact]] = defaultdict(list)
     for contact in network.contacts:
         if contact.weight > 0 and contact.a in carriers and contact.b in carriers:
@@ -92,9 +95,43 @@ def _springs(
     for pair, contacts in pairs.items():
         upper = standing[pair].upper
         materials = [_material(network, object_id, stands=object_id == upper) for object_id in pair]
-        own = [(one, stiffness(*materials, one.area_m2, preloads_n[pair])) for one in contacts]
+        own = [
+            (
+                one if way is one.normal else replace(one, normal=way),
+                stiffness(*materials, one.area_m2, preloads_n[pair]),
+            )
+            for one in contacts
+            for way in _ways(network, one, hangs=standing[pair].hangs)
+        ]
         springs[pair] = own + pressed.get(pair, [])
     return springs
+
+
+def _ways(network: ContactNetwork, contact: Contact, *, hangs: bool) -> list[Direction | None]:
+    """Directions of the springs of a contact, orthogonal unit vectors; None if no body has axes, see `_axes`.
+
+    A contact without a normal, where surfaces are flush or intersect, joins them: in the plane of both of their normals
+    it yields equally. A contact of an object that hangs holds it along the vertical too, by screws or by friction; that
+    is nearly as stiff (Mindlin: 2 (1 - nu) / (2 - nu) of the stiffness along the normal, 0.8).
+    """
+    if contact.normal is not None:
+        along = [contact.normal]
+    else:
+        along = [own[2] for own in (_axes(network, contact.a), _axes(network, contact.b)) if own is not None]
+    if hangs and along and network.up_axis is not None:
+        along.append((0.0, 1.0, 0.0) if VERTICAL[network.up_axis] == 1 else (0.0, 0.0, 1.0))
+    if len(along) < 2:
+        return [*along] or [None]
+    found: list[Direction | None] = [along[0]]
+    basis = np.array(along[:1])
+    for one in along[1:]:
+        across = one - (basis @ one) @ basis
+        length = float(np.linalg.norm(across))
+        if length**2 > 1 - LEVEL**2:
+            x, y, z = (across / length).tolist()
+            found.append((x, y, z))
+            basis = np.vstack([basis, across / length])
+    return found
 
 
 def legs_of(network: ContactNetwork, object_id: str, plate: Plate) -> list[tuple[float, float]]:
@@ -186,8 +223,8 @@ def _directions_on(
     x, y, z = own
     found = []
     for contact in contacts:
-        way = _way(contact, axes, level)
-        along = z if object_id in level or contact.normal is None else way
+        way = _way(contact)
+        along = z if object_id in level else way
         sign = -1.0 if dot(along, way) < _AGAINST else 1.0
         if object_id in level:
             found.append(NORMAL if sign > 0 else REVERSED)
@@ -197,20 +234,14 @@ def _directions_on(
     return found
 
 
-def _way(contact: Contact, axes: Mapping[str, Axes | None], level: Mapping[str, Direction]) -> Direction:
+def _way(contact: Contact) -> Direction:
     """Direction of the spring at a contact, the same for both of its bodies.
 
-    Both signs give the same spring, with two exceptions. A body without axes has to move in phase at contacts above and
-    below it, so that the largest component is positive. Without a contact's normal, a body perpendicular to this
-    direction is pushed along its own normal. Then the axes of the world must not decide on the sign, since the gains of
-    a turned scene would differ.
+    Both signs give the same spring, with one exception: a body without axes has to move in phase at contacts above and
+    below it, so that the largest component is positive.
     """
-    pair = (contact.a, contact.b)
-    own_normals = [own[2] for x in pair if (own := axes.get(x))]
-    normals = [contact.normal, *(level.get(x) for x in pair), *own_normals]
-    x, y, z = next((one for one in normals if one is not None), (0.0, 0.0, 1.0))
-    keeps_sign = contact.normal is None and len(own_normals) == len(pair)
-    return (x, y, z) if keeps_sign or max(x, y, z, key=abs) > 0 else (-x, -y, -z)
+    x, y, z = contact.normal or (0.0, 0.0, 1.0)
+    return (x, y, z) if max(x, y, z, key=abs) > 0 else (-x, -y, -z)
 
 
 def _merged(joints: Sequence[Joint]) -> list[Joint]:

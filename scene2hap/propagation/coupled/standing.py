@@ -30,10 +30,14 @@ side by side touch over their height."""
 
 
 class Standing(NamedTuple):
-    """upper : the object that stands on the other of its pair, None if unknown; preload_n : on each contact [N]."""
+    """upper : the object that stands on the other of its pair, None if unknown; preload_n : on each contact [N].
+
+    hangs : whether the lighter object stands on nothing, so that the other one, beside or above it, holds its weight.
+    """
 
     upper: str | None
     preload_n: float
+    hangs: bool = False
 
 
 def standings(
@@ -47,10 +51,12 @@ def standings(
     stated_kg = {object_id: _stated_mass_kg(network.bodies.get(object_id)) for object_id in ids}
     masses_kg = {key: _moving_kg(network, key, source_kg) if kg is None else kg for key, kg in stated_kg.items()}
     stated = {object_id for object_id, kg in stated_kg.items() if kg is not None}
-    found = _from_above(_supports(network, pairs, masses_kg), masses_kg, stated, law)
+    below = _supports(network, pairs, masses_kg)
+    found = _from_above(below, masses_kg, stated, law)
     for pair, contacts in pairs.items():
         if pair not in found:
-            found[pair] = _lighter(pair, len(contacts), masses_kg, stated, law)
+            one = _lighter(pair, len(contacts), masses_kg, stated, law)
+            found[pair] = one._replace(hangs=network.up_axis is not None and _hangs_beside(pair, below, masses_kg))
     return found
 
 
@@ -128,6 +134,11 @@ def _hangs(
     return masses_kg[one.lower] < kg and any(
         other.lower in below or masses_kg[other.lower] >= kg for other in others if other is not one
     )
+
+
+def _hangs_beside(pair: Pair, below: Mapping[str, object], masses_kg: Mapping[str, float]) -> bool:
+    least_kg = min(masses_kg[key] for key in pair)
+    return any(masses_kg[key] == least_kg and not below.get(key) for key in pair)
 
 
 def _from_above(

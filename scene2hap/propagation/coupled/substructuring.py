@@ -268,12 +268,12 @@ class CoupledField:
         pose = self.network.poses.get(object_id, Pose())
         at_m = solved.ends.points_m[:, :2]
         points = pose.to_world(np.column_stack([at_m, np.zeros(len(at_m))]))
-        found = [
-            Carrier(by, (float(x), float(y), float(z)), float(share))
-            for by, (x, y, z), share in zip(solved.others, points, shares, strict=True)
-            if share > 0
-        ]
-        return tuple(sorted(found, key=lambda one: (-one.share, one.by, one.point_m)))
+        found: dict[tuple[str, tuple[float, float, float]], float] = {}
+        for by, (x, y, z), share in zip(solved.others, points.tolist(), shares.tolist(), strict=True):
+            if share > 0:  # joints of one contact in two directions are one carrier
+                found[by, (x, y, z)] = found.get((by, (x, y, z)), 0.0) + share
+        carriers = [Carrier(by, point_m, share) for (by, point_m), share in found.items()]
+        return tuple(sorted(carriers, key=lambda one: (-one.share, one.by, one.point_m)))
 
     def _response(self, object_id: str, *, is_expected: bool = False) -> ObjectResponse:
         shape, ids = (len(self.source_ids), self.bands.n_bands), self.source_ids

@@ -1,14 +1,28 @@
 """`plot_field`: levels on a plate, marks of contacts and touches, and refused arguments."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from scene2hap import Bands, Contact, ContactNetwork, Excitation, ExponentialPlate, ModalPlate, Plate, Pose, materials
+from scene2hap import (
+    Bands,
+    Contact,
+    ContactNetwork,
+    Excitation,
+    ExponentialPlate,
+    MassSpringDamper,
+    ModalPlate,
+    NoPropagation,
+    Plate,
+    Pose,
+    materials,
+)
 from scene2hap.errors import MissingExtra, ModelDomainError
 from scene2hap.propagation.plots import plot_field
+from scene2hap.scene.surface.outline import Outline
 
 TOP = Plate(0.8, 0.4, 0.02, materials.lookup("oak"))
 PLACE = Pose((1.0, 2.0, 0.5))
@@ -61,3 +75,25 @@ def test_a_missing_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_invalid_arguments_are_refused(question: dict, message: str) -> None:
     with pytest.raises(ModelDomainError, match=message):
         plot_field(FIELD, NETWORK, **question)
+
+
+def test_the_map_ends_at_the_outline() -> None:
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed; run: pip install 'scene2hap[plots]'")
+    shape = Outline([[(0.0, 0.0), (0.8, 0.0), (0.8, 0.2), (0.3, 0.2), (0.3, 0.6), (0.0, 0.6)]])
+    network = replace(NETWORK, bodies={"top": Plate.of_outline(shape, 0.02, materials.lookup("oak"))})
+    field = MassSpringDamper().prepare(network, [Excitation("phone", 150.0, 150.0, 0.2)], Bands.dominant())
+    shown = np.ma.filled(plot_field(field, network, "top").axes[0].images[0].get_array(), np.nan)
+    assert np.isnan(shown[30:, 40:]).all()  # beside both legs of the L
+    assert np.isfinite(shown[:15]).all()
+    assert np.isfinite(shown[:, :20]).all()
+
+
+def test_a_source_that_does_not_arrive_is_drawn() -> None:
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed; run: pip install 'scene2hap[plots]'")
+    silent = NoPropagation().prepare(NETWORK, [Excitation("phone", 150.0, 150.0, 0.2)], Bands.dominant())
+    assert plot_field(silent, NETWORK, "top").axes[0].images[0].get_clim() == (-40.0, 0.0)
+
+
+def test_a_field_without_sources_is_refused() -> None:
+    with pytest.raises(ModelDomainError, match="has no source"):
+        plot_field(ModalPlate().prepare(NETWORK, [], Bands.dominant()), NETWORK, "top")
