@@ -129,7 +129,7 @@ class HapticSession:
         in_background = self.config.prepare == "background"
         self._shapes = PreparedShapes(is_wanted=scene.contacts is None, in_background=in_background)
         self._shapes.order(item.geometry.mesh for item in scene.objects)
-        self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
+        self._playback = Playback(self.config, self._sources.rows(), self.hands)
         self._switching = Switching(self._sources, self._playback, self._state, self.config.sample_rate_hz)
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
         self._mistakes = LikelyMistakes(self._state)
@@ -217,7 +217,7 @@ class HapticSession:
         frame, gained = self._hand_frames.frame(felt, moved or (), is_paused=self._playback.is_paused)
         if gained is not None:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
-        self._impacts.follow(moved, felt, self._hands, self._user, stamp)
+        self._impacts.follow(moved, felt, self._user, stamp)
         self._output.feed(frame)
         if (problem := self._output.problem) is not None:
             self._mistakes.in_sink(problem)
@@ -252,7 +252,7 @@ class HapticSession:
             self._state.require(with_object)
         strike = given_strike(object_id, point_m, with_object, speed_m_s, impulse_n_s)
         self._mistakes.in_strike(object_id, strike.point_m)
-        return self._impacts.strike(strike, self._hand_frames.felt, self.hands, self._user, self._playback.now)
+        return self._impacts.strike(strike, self._hand_frames.felt, self._user, self._playback.now)
 
     def add(
         self,
@@ -341,7 +341,7 @@ class HapticSession:
         """
         hands = checks.names("hands", (*self.hands, name))
         with self._output.reopened_for(hands, self._mixed):
-            self._playback.add_hand()
+            self._playback.add_hand(name)
             self._use_hands(hands)
 
     def remove_hand(self, name: str) -> None:
@@ -349,7 +349,7 @@ class HapticSession:
         require_hand(name, self.hands)
         hands = checks.names("hands", [hand for hand in self.hands if hand != name])
         with self._output.reopened_for(hands, self._mixed):
-            self._playback.remove_hand(self.hands.index(name))
+            self._playback.remove_hand(name)
             self._use_hands(hands)
 
     def set_source(
