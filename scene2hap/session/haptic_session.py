@@ -64,7 +64,7 @@ from scene2hap.session.likely_mistakes import (
 )
 from scene2hap.session.mix.output import Output
 from scene2hap.session.mix.playback import Playback
-from scene2hap.session.mix.sources import Level, SourceInfo, Sources
+from scene2hap.session.mix.sources import Level, SourceInfo, SourceProgress, Sources
 from scene2hap.session.mix.starts_and_stops import Switching
 from scene2hap.session.prepared_shapes import PreparedShapes
 from scene2hap.session.scene_state import SceneState
@@ -158,7 +158,7 @@ class HapticSession:
 
     def source(self, source_id: str) -> SourceInfo:
         """Return the present state of a source, its switch, its level and its frequency. Raises: UnknownObject."""
-        return self._sources.info(source_id)
+        return self._sources.info(source_id, self._switching.progress(source_id))
 
     @property
     def object_ids(self) -> frozenset[str]:
@@ -360,13 +360,16 @@ class HapticSession:
         state: str | None = None,
         gain_db: float | None = None,
         mute: bool | None = None,
+        progress: SourceProgress | Sequence[float | bool | None] | None = None,
     ) -> None:
         """Switch a source on, off or to another state, or set its level; felt from the next update on.
 
         Before the first update with the source, it is switched without a start or stop: a scene may begin with it off.
-        Raises: UnknownObject: not a source; SessionError: it has no such state, or the gain is out of bounds.
+        `progress` of a saved game lets a start, a stop and a cycle go on where they were, with the next update.
+        Raises: UnknownObject: not a source; SessionError: it has no such state, or a number is out of bounds.
         """
-        is_other_state = self._switching.set(source_id, on, state, gain_db, mute)
+        went = None if progress is None else SourceProgress.parse(progress)
+        is_other_state = self._switching.set(source_id, on, state, gain_db, mute, went)
         self._hand_frames.levels_changed(is_other_state)
 
     def set_user(
@@ -485,7 +488,7 @@ class HapticSession:
         """
         from scene2hap.session.plots import plot_felt  # by need: the extra `plots`
 
-        self._sources.info(source_id)
+        self._sources[source_id]  # raises for an unknown one
         hand = self.hands[0] if hand is None else hand
         require_hand(hand, self.hands)
         column, is_current = self.source_ids.index(source_id), self.is_current
