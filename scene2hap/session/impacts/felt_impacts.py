@@ -166,7 +166,7 @@ class Impacts:
     ) -> None:
         """Play the landings of an update, and prepare for impacts around the touched objects. Call it in each one."""
         self.take_late()
-        if self._landings is not None and (moved or self._landings.follow_any):
+        if self._landings is not None:
             for one in self._landings.look(moved or {}, at_frame / self._config.sample_rate_hz):
                 landing = Strike(one.onto, one.point_m, one.object_id, one.speed_m_s)
                 # Checked first, so that nothing is computed for a skipped impact.
