@@ -1,13 +1,15 @@
 """A bake in a separate process, so that it can be cancelled and does not slow down running sessions.
 
-Reads one JSON object from standard input (`scene`, `target`, `config`, `user_prompt`, `pictures`). Writes one JSON
-object per line: `progress` with stage, item, done and of; at the end `objects`, or `error` with kind and message.
+Reads one JSON object from standard input (`scene`, `is_sent`, `target`, `config`, `user_prompt`, `pictures`). Writes
+one JSON object per line: `progress` with stage, item, done and of; at the end `objects`, or `error` with kind and
+message.
 """
 
 from __future__ import annotations
 
 import json
 import sys
+from pathlib import Path
 from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
@@ -16,7 +18,9 @@ from scene2hap.errors import Scene2HapError
 from scene2hap.llm.wrappers import is_remote
 from scene2hap.scene.capture import capture_images
 from scene2hap.scene.capture.given_pictures import GivenPictures
+from scene2hap.scene.files import read_bytes
 from scene2hap.scene.load import load_scene
+from scene2hap.scene.snapshot import SceneSnapshot
 
 
 def main() -> None:
@@ -41,7 +45,10 @@ def main() -> None:
 
 def baked(wanted: dict[str, Any], progress: Any) -> HapticBundle:
     """Bake the bundle of a request. Raises: as `load_scene` and `bake`."""
-    scene, config = load_scene(wanted["scene"]), BakeConfig.parse(wanted["config"])
+    # A scene that the client sent is in a file of the server's, which no error should name.
+    path = Path(wanted["scene"])
+    scene = SceneSnapshot.from_json(read_bytes(path).decode("utf-8")) if wanted["is_sent"] else load_scene(path)
+    config = BakeConfig.parse(wanted["config"])
     if wanted["pictures"] is not None:
         scene = GivenPictures.load(wanted["pictures"]).attach_to(scene)
     elif is_remote(config.llm):

@@ -217,5 +217,5 @@ class PlayedSession:
 
 
 def _source(info: SourceInfo) -> dict[str, Any]:
-    """Return the fields of a source, without `is_running`: a change of it sends no message, so that it would be old."""
-    return {name: value for name, value in asdict(info).items() if name != "is_running"}
+    """Return the fields of a source, without those whose changes send no message, so that they would be old."""
+    return {name: value for name, value in asdict(info).items() if name not in ("is_running", "progress")}

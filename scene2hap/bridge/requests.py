@@ -128,6 +128,7 @@ def _bake(request: messages.Bake, client: Client, host: Host) -> Document:
     pictures = client.pictures.hand_over() if request.pictures else None
     wanted = {
         "scene": str(path or host.jobs.write(json.dumps(request.scene))),
+        "is_sent": path is None,
         "config": {**host.config.bake, **request.config},
         "user_prompt": request.user_prompt,
         "pictures": None if pictures is None else str(pictures),

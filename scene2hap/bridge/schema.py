@@ -84,7 +84,8 @@ class Cancelled(Answer):
 
 
 class Source(BaseModel):
-    """The present state of a vibrating object, the fields of `SourceInfo` but for `is_running`."""
+    """The present state of a vibrating object, the fields of `SourceInfo` but for `is_running` and
+    `progress`."""
 
     id: str
     state: str

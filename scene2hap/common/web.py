@@ -207,12 +207,19 @@ async def exchange(
             cause, httpx.UnsupportedProtocol | httpx.LocalProtocolError | httpx.InvalidURL | httpx.TooManyRedirects
         )
         never = never or "CERTIFICATE_VERIFY_FAILED" in str(cause)  # of ssl, whose error httpx replaces by its own
+        # No network lies between: nothing listens there. A server that loads its model may listen, and answers 503.
+        is_absent = is_here and isinstance(cause, httpx.ConnectError)
         problem = (scrub(str(cause)) or type(cause).__name__).rstrip(".")
         proxy = " It goes through the proxy of HTTP_PROXY, HTTPS_PROXY or ALL_PROXY, unless NO_PROXY names the host."
+        what = (
+            "Start the server on this machine, and wait until it listens; or check the port."
+            if is_absent
+            else "Check the network, the server and the address."
+        )
         raise BackendUnavailable(
-            f"{url} cannot be reached: {problem}. Check the network, the server and the address."
+            f"{url} cannot be reached: {problem}. {what}"
             f"{proxy if transport is None and not is_here and getproxies().keys() & {'http', 'https', 'all'} else ''}",
-            retryable=not never,
+            retryable=not (never or is_absent),
         ) from _without_frames(cause, scrub)
     return WebReply(url, response.status_code, content, dict(response.headers))
 

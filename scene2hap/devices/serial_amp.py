@@ -12,6 +12,7 @@ from scene2hap.common.calls import clear_calls
 from scene2hap.devices.exclusive_use import port_key
 from scene2hap.devices.framing.frames import (
     MAX_PAYLOAD,
+    MOST_CHANNELS,
     FrameParser,
     FrameType,
     SampleFormat,
@@ -96,7 +97,11 @@ class SerialLine:
         self._rate_hz = self._channels = 0
 
     def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
-        """Open the port and send HELLO until the device answers."""
+        """Open the port and send HELLO, which has a byte for the number of channels, until the device answers."""
+        if len(format.channels) > MOST_CHANNELS:
+            raise DeviceError(
+                f"{self._name} takes at most {MOST_CHANNELS} channels; the session has {len(format.channels)} hands."
+            )
         self._port = SerialPort(self._name, self._baud_rate)
         self._parser = FrameParser()
         self._in_flight.clear()

@@ -11,11 +11,20 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
 from scene2hap.devices.datagrams import Datagrams
 from scene2hap.devices.due_frames import Pace
-from scene2hap.devices.framing.frames import MAX_PAYLOAD, FrameType, SampleFormat, clock_us, message, pcm, to_datagram
+from scene2hap.devices.framing.frames import (
+    MAX_PAYLOAD,
+    MOST_CHANNELS,
+    FrameType,
+    SampleFormat,
+    clock_us,
+    message,
+    pcm,
+    to_datagram,
+)
 from scene2hap.devices.link import CarryOn, LiveSink
 from scene2hap.devices.osc import GainFrame, OscLine
 from scene2hap.devices.protocol import Block, EventCallback, SinkFormat
-from scene2hap.errors import ConfigError
+from scene2hap.errors import ConfigError, DeviceError
 
 ANNOUNCE_S = 1.0
 """Interval of announcements [s]. From them a receiver that starts late learns rate and channels."""
@@ -96,9 +105,15 @@ class PcmLine:
         return self._datagrams.not_sent + self._pace.n_pauses
 
     def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
-        """Announce the stream."""
-        names = "\n".join(format.channels).encode()
-        self._announcement = to_datagram(message(FrameType.STREAM, struct.pack("<I", self._rate_hz) + names))
+        """Announce the stream. Raises: DeviceError: more hands, or longer names, than a datagram holds."""
+        rate, names = struct.pack("<I", self._rate_hz), "\n".join(format.channels).encode()
+        most = MAX_PAYLOAD - len(rate)
+        if len(format.channels) > MOST_CHANNELS or len(names) > most:
+            raise DeviceError(
+                f"a datagram holds at most {MOST_CHANNELS} hands, and {most} bytes of their names; the session has "
+                f'{len(format.channels)} hands, with {len(names)} bytes. Use fewer, or content="osc".'
+            )
+        self._announcement = to_datagram(message(FrameType.STREAM, rate + names))
         self._block_frames = min(self._wish, MAX_PAYLOAD // (len(format.channels) * self._samples.dtype.itemsize))
         self._datagrams.connect(self._announcement, carry_on)
         self._announced_s = time.monotonic()

@@ -64,7 +64,7 @@ from scene2hap.session.likely_mistakes import (
 )
 from scene2hap.session.mix.output import Output
 from scene2hap.session.mix.playback import Playback
-from scene2hap.session.mix.sources import Level, SourceInfo, Sources
+from scene2hap.session.mix.sources import Level, SourceInfo, SourceProgress, Sources
 from scene2hap.session.mix.starts_and_stops import Switching
 from scene2hap.session.prepared_shapes import PreparedShapes
 from scene2hap.session.scene_state import SceneState
@@ -129,7 +129,7 @@ class HapticSession:
         in_background = self.config.prepare == "background"
         self._shapes = PreparedShapes(is_wanted=scene.contacts is None, in_background=in_background)
         self._shapes.order(item.geometry.mesh for item in scene.objects)
-        self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
+        self._playback = Playback(self.config, self._sources.rows(), self.hands)
         self._switching = Switching(self._sources, self._playback, self._state, self.config.sample_rate_hz)
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
         self._mistakes = LikelyMistakes(self._state)
@@ -158,7 +158,7 @@ class HapticSession:
 
     def source(self, source_id: str) -> SourceInfo:
         """Return the present state of a source, its switch, its level and its frequency. Raises: UnknownObject."""
-        return self._sources.info(source_id)
+        return self._sources.info(source_id, self._switching.progress(source_id))
 
     @property
     def object_ids(self) -> frozenset[str]:
@@ -217,7 +217,7 @@ class HapticSession:
         frame, gained = self._hand_frames.frame(felt, moved or (), is_paused=self._playback.is_paused)
         if gained is not None:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
-        self._impacts.follow(moved, felt, self._hands, self._user, stamp)
+        self._impacts.follow(moved, felt, self._user, stamp)
         self._output.feed(frame)
         if (problem := self._output.problem) is not None:
             self._mistakes.in_sink(problem)
@@ -252,7 +252,7 @@ class HapticSession:
             self._state.require(with_object)
         strike = given_strike(object_id, point_m, with_object, speed_m_s, impulse_n_s)
         self._mistakes.in_strike(object_id, strike.point_m)
-        return self._impacts.strike(strike, self._hand_frames.felt, self.hands, self._user, self._playback.now)
+        return self._impacts.strike(strike, self._hand_frames.felt, self._user, self._playback.now)
 
     def add(
         self,
@@ -341,7 +341,7 @@ class HapticSession:
         """
         hands = checks.names("hands", (*self.hands, name))
         with self._output.reopened_for(hands, self._mixed):
-            self._playback.add_hand()
+            self._playback.add_hand(name)
             self._use_hands(hands)
 
     def remove_hand(self, name: str) -> None:
@@ -349,7 +349,7 @@ class HapticSession:
         require_hand(name, self.hands)
         hands = checks.names("hands", [hand for hand in self.hands if hand != name])
         with self._output.reopened_for(hands, self._mixed):
-            self._playback.remove_hand(self.hands.index(name))
+            self._playback.remove_hand(name)
             self._use_hands(hands)
 
     def set_source(
@@ -360,13 +360,16 @@ class HapticSession:
         state: str | None = None,
         gain_db: float | None = None,
         mute: bool | None = None,
+        progress: SourceProgress | Sequence[float | bool | None] | None = None,
     ) -> None:
         """Switch a source on, off or to another state, or set its level; felt from the next update on.
 
         Before the first update with the source, it is switched without a start or stop: a scene may begin with it off.
-        Raises: UnknownObject: not a source; SessionError: it has no such state, or the gain is out of bounds.
+        `progress` of a saved game lets a start, a stop and a cycle go on where they were, with the next update.
+        Raises: UnknownObject: not a source; SessionError: it has no such state, or a number is out of bounds.
         """
-        is_other_state = self._switching.set(source_id, on, state, gain_db, mute)
+        went = None if progress is None else SourceProgress.parse(progress)
+        is_other_state = self._switching.set(source_id, on, state, gain_db, mute, went)
         self._hand_frames.levels_changed(is_other_state)
 
     def set_user(
@@ -485,7 +488,7 @@ class HapticSession:
         """
         from scene2hap.session.plots import plot_felt  # by need: the extra `plots`
 
-        self._sources.info(source_id)
+        self._sources[source_id]  # raises for an unknown one
         hand = self.hands[0] if hand is None else hand
         require_hand(hand, self.hands)
         column, is_current = self.source_ids.index(source_id), self.is_current

@@ -11,7 +11,7 @@ import os
 from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, PrivateAttr, Tag, ValidationError, model_validator
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes
@@ -112,6 +112,7 @@ class TouchTrack(BaseModel):
     version: Literal[1] = VERSION
     duration_s: float = Field(ge=MIN_DURATION_S, le=MAX_DURATION_S, allow_inf_nan=False)
     steps: tuple[Step, ...] = Field(max_length=MAX_STEPS)
+    _name: str = PrivateAttr(default=_TOUCHES)
 
     def __init__(self, *unnamed: Any, **fields: Any) -> None:
         if unnamed:
@@ -123,6 +124,17 @@ class TouchTrack(BaseModel):
             super().__init__(**fields)
         except ValidationError as cause:
             raise SessionError(f"{_TOUCHES}: {_sentence(checks.first_problem(cause))} See docs/touches.md.") from cause
+
+    @property
+    def name(self) -> str:
+        """The file that the track was read from, for messages."""
+        return self._name
+
+    def __eq__(self, other: object) -> bool:
+        """Compare the contents: tracks of two files may be equal."""
+        if not isinstance(other, TouchTrack):
+            return NotImplemented
+        return (self.duration_s, self.steps) == (other.duration_s, other.steps)
 
     @model_validator(mode="after")
     def _in_order(self) -> TouchTrack:
@@ -156,9 +168,11 @@ class TouchTrack(BaseModel):
         if isinstance(steps, (list, tuple)) and len(steps) > MAX_STEPS:  # before each step is validated
             raise SessionError(f"{name}: steps: {len(steps)} items; at most {MAX_STEPS} items. See docs/touches.md.")
         try:
-            return cls(**document)
+            track = cls(**document)
         except SessionError as cause:
             raise SessionError(f"{name}{str(cause).removeprefix(_TOUCHES)}") from cause
+        track._name = name
+        return track
 
 
 _WANTED = {

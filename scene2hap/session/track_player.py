@@ -72,14 +72,14 @@ def play_track(
     # A last frame that is shorter than the others counts too, or the track would end before its time.
     n_frames = max(1, math.ceil(track.duration_s * update_rate_hz - 1e-9))
     for number, step in enumerate(track.steps, start=1):  # all of them first, since playing may take minutes
-        with _naming_step(number):
+        with _naming_step(track, number):
             state.check(step, session)
     waiting = deque(enumerate(track.steps, start=1))
     for i in range(n_frames):
         time_s = i / update_rate_hz
         while waiting and waiting[0][1].time_s <= time_s + 1e-9:
             number, step = waiting.popleft()
-            with _naming_step(number):
+            with _naming_step(track, number):
                 state.take(step, session)
         begin = origin + round(time_s * rate)
         end = origin + round(min((i + 1) / update_rate_hz, track.duration_s) * rate)
@@ -91,12 +91,12 @@ def play_track(
 
 
 @contextmanager
-def _naming_step(number: int) -> Iterator[None]:
-    """Name the step in an error, as `TouchTrack.parse` does."""
+def _naming_step(track: TouchTrack, number: int) -> Iterator[None]:
+    """Name file and step in an error, as `TouchTrack.parse` does."""
     try:
         yield
     except Scene2HapError as error:
-        error.args = (f"touches: step {number}: {error}",)
+        error.args = (f"{track.name}: step {number}: {error}",)
         raise
 
 

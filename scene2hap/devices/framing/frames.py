@@ -25,6 +25,9 @@ VERSION = 1
 MAX_PAYLOAD = 1024
 """Most bytes of a payload, so that a frame fits into one Ethernet datagram and into a small board's memory."""
 
+MOST_CHANNELS = 255
+"""Most channels of a frame, whose header has a byte for their number."""
+
 _HEADER = struct.Struct("<BBHBBHI")
 _CRC_SIZE = 4
 _LONGEST_ENCODED = cobs.LONGEST_RUN + MAX_PAYLOAD + _HEADER.size + _CRC_SIZE

@@ -65,14 +65,20 @@ def stand_apart(members: Sequence[Member], items: Sequence[Member], *, gap: floa
         return False
     reach = gap * float(np.linalg.norm(np.ptp(joined(_boxes(members)), axis=0)))
     boxes = _boxes(items)
-    linked, left = [0], np.arange(1, len(items))
+    # Sorted along the longest axis: only a range of the boxes can be near to one, or a long row would cost n^2.
+    axis = int(np.ptp(joined(boxes), axis=0).argmax())
+    boxes = boxes[boxes[:, 0, axis].argsort()]
+    low, high = boxes[:, 0, axis], boxes[:, 1, axis]
+    wide = reach + 1e-9 * float(np.abs(boxes).max())  # by rounding, a sum and a difference disagree
+    firsts, lasts = np.searchsorted(low, [low - (high - low).max() - wide, high + wide])
+    linked, is_left = [0], np.arange(len(boxes)) > 0
     for one in linked:
-        is_near = distances(boxes[left], boxes[one]) <= reach
-        linked += left[is_near].tolist()
-        left = left[~is_near]
-        if not len(left):
-            return False
-    return True
+        first = int(firsts[one])
+        within = np.flatnonzero(is_left[first : int(lasts[one])]) + first
+        near = within[distances(boxes[within], boxes[one]) <= reach]
+        is_left[near] = False
+        linked += near.tolist()
+    return len(linked) < len(boxes)
 
 
 def _boxes(members: Sequence[Member]) -> NDArray[np.float64]:

@@ -139,14 +139,12 @@ class Impacts:
         self.n_felt: int = 0
         self.n_left_out: int = 0
 
-    def strike(
-        self, strike: Strike, felt: Felt, hands: tuple[str, ...], profile: UserProfile | None, at_frame: int
-    ) -> Impact:
+    def strike(self, strike: Strike, felt: Felt, profile: UserProfile | None, at_frame: int) -> Impact:
         """Play an impact at the hands that touch something."""
         self.take_late()
         impact, burst = self._impact(strike, at_frame)
         if self._is_admitted(strike, felt, at_frame):
-            self._play(impact, burst, felt, hands, profile)
+            self._play(impact, burst, felt, profile)
         return impact
 
     def forget_motions(self) -> None:
@@ -163,18 +161,17 @@ class Impacts:
         self,
         moved: Mapping[str, Pose] | None,
         felt: Felt,
-        hands: tuple[str, ...],
         profile: UserProfile | None,
         at_frame: int,
     ) -> None:
         """Play the landings of an update, and prepare for impacts around the touched objects. Call it in each one."""
         self.take_late()
-        if self._landings is not None and (moved or self._landings.follow_any):
+        if self._landings is not None:
             for one in self._landings.look(moved or {}, at_frame / self._config.sample_rate_hz):
                 landing = Strike(one.onto, one.point_m, one.object_id, one.speed_m_s)
                 # Checked first, so that nothing is computed for a skipped impact.
                 if self._is_admitted(landing, felt, at_frame, self._updated_at):
-                    self._play(*self._impact(landing, at_frame), felt, hands, profile)
+                    self._play(*self._impact(landing, at_frame), felt, profile)
         self._updated_at = at_frame
         if self._ahead is not None:
             self._ahead.expect({touch.object_id for touches in felt.values() for touch in touches})
@@ -196,14 +193,12 @@ class Impacts:
             burst,
         )
 
-    def _play(
-        self, impact: Impact, burst: Burst, felt: Felt, hands: tuple[str, ...], profile: UserProfile | None
-    ) -> None:
+    def _play(self, impact: Impact, burst: Burst, felt: Felt, profile: UserProfile | None) -> None:
         at_frame, f = impact.at_sample, burst.frequencies_hz
         # A hand may be removed before a worker has the gains, and has another output if it is added again.
-        outputs = dict(zip(hands, self._playback.outputs, strict=True))
+        outputs = self._playback.outputs
         touched: dict[str, list[TouchedPoint]] = {
-            hand: [(x.object_id, x.point_m) for x in touches] for hand, touches in felt.items()
+            hand: [(x.object_id, x.point_m) for x in touches] for hand, touches in felt.items() if hand in outputs
         }
 
         def started(gains: Floats, begin: int, among: Collection[str]) -> dict[str, float]:

@@ -27,7 +27,15 @@ from scene2hap.contact.junction import Junction
 from scene2hap.contact.rule import TOUCH_M
 from scene2hap.scene.geometry import Vector, cross, dot
 from scene2hap.scene.pose import Pose
-from scene2hap.session.impacts.motion_track import LEAST_TRAVEL_M, LEFT, MOST_STEPS, STILL, MotionTrack, in_world
+from scene2hap.session.impacts.motion_track import (
+    LEAST_TRAVEL_M,
+    LEFT,
+    LONGEST_GAP_S,
+    MOST_STEPS,
+    STILL,
+    MotionTrack,
+    in_world,
+)
 from scene2hap.session.impacts.slams import Slam, Way
 
 LEAST_SPEED_M_S = 0.1
@@ -89,8 +97,8 @@ class Landings:
 
     Parameters: graph : the contacts, read at each `look`; middle_m : the middle of an object's box, in its own frame
     [m]; half_m : half the sides of this box [m]; slam : what an object on a hinge may slam against; is_closed :
-    whether an object is a closed drawer of another; period_s : usual time between updates, for a clock that stands
-    still.
+    whether an object is a closed drawer of another; period_s : usual time between updates, where the clock shows
+    none.
     """
 
     def __init__(
@@ -112,11 +120,6 @@ class Landings:
         self._moved: dict[str, None] = {}
         self._n_waiting, self._looked_s, self._clock_runs = 0, 0.0, False
 
-    @property
-    def follow_any(self) -> bool:
-        """True if an object has moved lately."""
-        return bool(self._tracks)
-
     def forget(self) -> None:
         """Forget all motions. Call it after a pause: the clock stood still, so that their speeds are unknown."""
         self._tracks.clear()
@@ -126,6 +129,8 @@ class Landings:
     def begin(self, moved: Mapping[str, Pose], time_s: float) -> None:
         """Store poses and contacts of the objects that are about to move. Call it before the graph is updated."""
         tracks, beside = self._tracks, self._graph.beside
+        # The objects were still at rest at the last look, unless that is long ago: then the time of a step is unknown.
+        since_s = self._looked_s if 0 < time_s - self._looked_s <= LONGEST_GAP_S else time_s - self._period_s
         for object_id, moves_to in moved.items():
             track = tracks.get(object_id)
             if track is not None:
@@ -136,10 +141,10 @@ class Landings:
                 # Some games give the poses of all objects in every frame. The graph refuses other types than poses.
                 if isinstance(moves_to, Pose) and pose != moves_to:
                     own_m = self._middle_m(object_id)
-                    tracks[object_id] = MotionTrack(self._n_updates, time_s - self._period_s, pose, own_m)
+                    tracks[object_id] = MotionTrack(self._n_updates, since_s, pose, own_m)
 
     def look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
-        """Find the objects that landed in this update. Call it after the graph is updated."""
+        """Find the objects that landed in this update. Call it in each one, after the graph is updated."""
         if self._is_within_step(time_s):
             self._moved.update(dict.fromkeys(moved))
             return []
@@ -333,8 +338,11 @@ class Landings:
     ) -> float:
         """Mean speed of an object towards another over a run [m/s], of its middle and of its turns in each step.
 
-        The chord of a fast turn is no measure of its speed: the bottom of a spinning ball was lately its top.
+        The chord of a fast turn is no measure of its speed: the bottom of a spinning ball was lately its top. The first
+        step of a motion counts only alone, since a part of it was rest, or the motion before.
         """
+        if len(run) > 2 and run[0][0] == self._tracks[object_id].since:
+            run = run[1:]
         (first, begin_s), (last, end_s) = run[0], run[-1]
         n_updates, elapsed_s = last - first, end_s - begin_s
         stands_still = elapsed_s <= 0 or (n_updates > 1 and run[1][1] == end_s)

@@ -128,10 +128,10 @@ class _Place:
 class Playback:
     """The mix of all loops and bursts, for all hands.
 
-    Parameters: rows : loops for which gains may be set; n_hands : number of outputs.
+    Parameters: rows : loops for which gains may be set; hands : names of the outputs.
     """
 
-    def __init__(self, config: SessionConfig, rows: Sequence[LoopRow], n_hands: int) -> None:
+    def __init__(self, config: SessionConfig, rows: Sequence[LoopRow], hands: Sequence[str]) -> None:
         self._config = config
         self._tactile_rate_hz = min(config.tactile_rate_hz, config.sample_rate_hz)
         self._coming: dict[LoopRow, Future[PreparedLoop]] = {}
@@ -140,15 +140,16 @@ class Playback:
         """The frame of the last update, which may be later than `position`."""
         self._paused_from: int | None = None
         self._frozen_at: int | None = None
-        self._hands = list(range(n_hands))
-        self._next_hand = n_hands
+        # Replaced and never changed, since other threads read it.
+        self._hands: Mapping[str, int] = {hand: token for token, hand in enumerate(hands)}
+        self._next_hand = len(hands)
         self._places: dict[LoopRow, _Place] = {}
         self._retired: list[_Place] = []
         # By columns of the active rows.
         self._routes: dict[tuple[int, ...] | None, list[_Route]] = {}
         self._active: Sequence[LoopRow] = ()
         self._banks = [self._new_bank(len(rows))]
-        self._mixers = [MixerInstance(config, self._banks[0], tuple(self._hands), 0)]
+        self._mixers = [MixerInstance(config, self._banks[0], tuple(self._hands.values()), 0)]
         self._plan = self._new_plan()
         self._bursts = Bursts()
         self._pausing = Lock()  # else a worker may start a burst after the fade, which would play on after the pause
@@ -225,9 +226,9 @@ class Playback:
         return self._bursts.n_playing
 
     @property
-    def outputs(self) -> Sequence[int]:
-        """A token of each present output, for `start_burst`; no later output has the same."""
-        return self._plan.hands
+    def outputs(self) -> Mapping[str, int]:
+        """A token of each present hand's output, for `start_burst`; no later output has the same."""
+        return self._hands
 
     def start_burst(
         self, waves: Sequence[NDArray[np.float32]], weights: Mapping[int, Sequence[float]], at_frame: int
@@ -325,17 +326,17 @@ class Playback:
     def _tactile(self, frame: int) -> int:
         return frame * self._tactile_rate_hz // self._config.sample_rate_hz
 
-    def add_hand(self) -> None:
+    def add_hand(self, name: str) -> None:
         """Add an output, after the others."""
         token, self._next_hand = self._next_hand, self._next_hand + 1
-        self._hands.append(token)
+        self._hands = {**self._hands, name: token}
         self._mixers += [MixerInstance(self._config, bank, (token,), self._position) for bank in self._banks]
         self._plan = self._new_plan()
 
-    def remove_hand(self, channel: int) -> None:
+    def remove_hand(self, name: str) -> None:
         """Remove an output."""
-        del self._hands[channel]
-        self._mixers = [mixer for mixer in self._mixers if not set(mixer.hands).isdisjoint(self._hands)]
+        self._hands = {hand: token for hand, token in self._hands.items() if hand != name}
+        self._mixers = [mixer for mixer in self._mixers if not set(mixer.hands).isdisjoint(self._hands.values())]
         self._plan = self._new_plan()
 
     def pause(self) -> None:
@@ -354,11 +355,11 @@ class Playback:
 
     def hold(self, limits: NDArray[np.float64]) -> None:
         """Hold each output within a limit (n_hands,) [-] in `render_held`, see `HandLimits`."""
-        by_hand = dict(zip(self._hands, limits.tolist(), strict=True))
+        by_hand = dict(zip(self._hands.values(), limits.tolist(), strict=True))
         if self._limits is None:
             # Limits that come while the mix plays begin at full scale, so that they do not click.
             first = {} if self._position else by_hand
-            self._limits = HandLimits(self._config.sample_rate_hz, self._hands, first)
+            self._limits = HandLimits(self._config.sample_rate_hz, tuple(self._hands.values()), first)
         self._limits.hold(by_hand)
 
     def render(self, n_frames: int) -> Block:
@@ -399,12 +400,12 @@ class Playback:
 
     def _new_plan(self) -> _Plan:
         self._routes.clear()
-        mixers = []
+        mixers, hands = [], tuple(self._hands.values())
         for mixer in self._mixers:
-            gained = [(i, self._hands.index(hand)) for i, hand in enumerate(mixer.hands) if hand in self._hands]
+            gained = [(i, hands.index(hand)) for i, hand in enumerate(mixer.hands) if hand in hands]
             outputs, channels = np.array(gained, dtype=np.intp).reshape(-1, 2).T
             mixers.append((mixer, outputs, channels))
-        return _Plan(tuple(self._hands), tuple(mixers))
+        return _Plan(hands, tuple(mixers))
 
     def _new_bank(self, n_rows: int) -> SlotBank:
         n_slots = n_rows + max(SPARE_SLOTS, n_rows)
@@ -424,6 +425,6 @@ class Playback:
         # Each new bank has as many slots as all before it, so that adding many loops one by one needs few mixers.
         bank = self._new_bank(max(n_wanted, len(self._places) // 2))
         self._banks.append(bank)
-        self._mixers.append(MixerInstance(self._config, bank, tuple(self._hands), self._position))
+        self._mixers.append(MixerInstance(self._config, bank, tuple(self._hands.values()), self._position))
         self._plan = self._new_plan()
         return bank, 0

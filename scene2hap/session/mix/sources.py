@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,6 +53,34 @@ class LoopRow:
     loop: HapticLoop
 
 
+class SourceProgress(NamedTuple):
+    """How far a source is in its start or stop and in its cycle, for a saved game; JSON makes a list of it.
+
+    speed, amplitude : of the start or stop that is under way, re steady running, 0..1 [-]; None if none is.
+    is_resting : whether the source is in the off-time of its cycle.
+    turn_left_s : rest of the present on-time or off-time [s]; None if its state has no cycle.
+    """
+
+    speed: float | None = None
+    amplitude: float | None = None
+    is_resting: bool = False
+    turn_left_s: float | None = None
+
+    @classmethod
+    def parse(cls, given: object) -> SourceProgress:
+        """Check the values of a progress, or a list of them. Raises: SessionError."""
+        if not isinstance(given, list | tuple) or len(given) != len(cls._fields):
+            wanted = f"it must be {', '.join(cls._fields)}, as `session.source(id).progress` has them"
+            raise SessionError(f"progress is {checks.represented(given)}; {wanted}.")
+        speed, amplitude, is_resting, left_s = given
+        if speed is not None or amplitude is not None:
+            speed = checks.number("speed", speed, "", at_least=0.0, at_most=1.0, error=SessionError)
+            amplitude = checks.number("amplitude", amplitude, "", at_least=0.0, at_most=1.0, error=SessionError)
+        if left_s is not None:
+            left_s = checks.number("turn_left_s", left_s, "s", at_least=0.0, error=SessionError)
+        return cls(speed, amplitude, checks.flag("is_resting", is_resting, error=SessionError), left_s)
+
+
 @clear_attributes
 @dataclass(frozen=True)
 class SourceInfo:
@@ -60,6 +89,7 @@ class SourceInfo:
 
     is_running : whether it is switched on, not in the off-time of its own cycle, and had the contact that it needs at
     the last update. It is true from the beginning of a start, and false from that of a stop.
+    progress : how far it is in its start or stop and in its cycle, for `set_source(progress=...)` of another session.
     """
 
     id: str
@@ -70,6 +100,7 @@ class SourceInfo:
     gain_db: float
     is_muted: bool
     is_running: bool
+    progress: SourceProgress
 
 
 @dataclass
@@ -159,7 +190,7 @@ class Sources:
             raise UnknownObject(unknown_source(source_id, self.ids) + self._removed.hint(source_id))
         return self._sources[source_id]
 
-    def info(self, source_id: str) -> SourceInfo:
+    def info(self, source_id: str, progress: SourceProgress) -> SourceInfo:
         """A source as it is now. Raises: UnknownObject."""
         source = self[source_id]
         frequency_hz, level = source.rows[source.state].loop.frequency_tactile_hz, source.level
@@ -172,6 +203,7 @@ class Sources:
             level.gain_db,
             level.is_muted,
             source.is_running,
+            progress,
         )
 
     def rows(self) -> list[LoopRow]:

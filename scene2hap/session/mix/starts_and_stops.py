@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from scene2hap.contact_needs import meets
 from scene2hap.render.passage import STEADY, STILL, Course, Passage, Running
 from scene2hap.session.mix.playback import Playback
-from scene2hap.session.mix.sources import LoopRow, Source, Sources
+from scene2hap.session.mix.sources import LoopRow, Source, SourceProgress, Sources
 from scene2hap.session.scene_state import SceneState
 
 
@@ -34,6 +34,8 @@ class Switching:
         self._passing: dict[str, _Passing] = {}
         # The frame at which a source's on-time or off-time ends, and the source, since another may get the same id.
         self._turns: dict[str, tuple[int, Source]] = {}
+        # Starts and stops of a saved game, which go on once the contacts of the sources are known.
+        self._resumed: dict[str, tuple[Running, Source]] = {}
         self._known: tuple[str, ...] | None = None
         self._updated: tuple[str, ...] | None = None
         # Sources with a state that needs a contact, and the contacts for which they were last checked, None if they
@@ -41,7 +43,15 @@ class Switching:
         self._needing: list[str] = []
         self._topology: int | None = None
 
-    def set(self, source_id: str, on: bool | None, state: str | None, gain_db: float | None, mute: bool | None) -> bool:
+    def set(
+        self,
+        source_id: str,
+        on: bool | None,
+        state: str | None,
+        gain_db: float | None,
+        mute: bool | None,
+        progress: SourceProgress | None = None,
+    ) -> bool:
         """Set the arguments that are not None. A person who switches a source on, or to another state, begins a new
         on-time, unless the source is new. Returns true if this changed its state. Raises: see `Sources.set`."""
         source, now = self._sources[source_id], self._playback.now
@@ -55,6 +65,10 @@ class Switching:
         if source.is_on and (on is not None or is_other_state):
             source.is_resting = False
             self._begin_turn(source_id, source, now, _first_share(source_id) if source.is_new else 0.0)
+        if on is not None or is_other_state:
+            self._resumed.pop(source_id, None)
+        if progress is not None:
+            self._resume(source_id, source, now, progress)
         self._topology = None  # other sources may need a contact with this one, switched on
         self._follow(source_id, source, was_running, now)
         return is_other_state
@@ -63,6 +77,10 @@ class Switching:
         """Apply an update: end finished starts and stops, and switch sources whose contacts have changed, or whose
         on-time or off-time is over. Returns true if any changed."""
         is_other_contact = self.follow_contacts(now)
+        resumed, self._resumed = self._resumed, {}
+        for source_id, (running, source) in resumed.items():
+            if self._sources.get(source_id) is source:
+                self._pass(source_id, source, now, running)
         over = [source_id for source_id, one in self._passing.items() if now >= one.end_frame]
         for source_id in over:
             del self._passing[source_id]
@@ -81,7 +99,7 @@ class Switching:
             self._updated = self._known
             for source_id in self._sources.ids:
                 self._sources[source_id].is_new = False
-        return is_other_contact or bool(over or due)
+        return is_other_contact or bool(resumed or over or due)
 
     def follow_contacts(self, now: int) -> bool:
         """Start and stop sources that got or lost the contact that they need. Returns true if there are any."""
@@ -104,6 +122,27 @@ class Switching:
         """Speed and amplitude of a source that is on, or that still stops."""
         passing = self._passing.get(source_id)
         return STEADY if passing is None else self._playback.running(passing.passage, self._playback.now)
+
+    def progress(self, source_id: str) -> SourceProgress:
+        """How far a source is in its start or stop and in its cycle. Raises: UnknownObject."""
+        source, (end, turning) = self._sources[source_id], self._turns.get(source_id, (0, None))
+        left_s = max(0, end - self._playback.now) / self._rate_hz if turning is source else None
+        if source.passing is None:
+            return SourceProgress(None, None, source.is_resting, left_s)
+        speed, amplitude = self.running(source_id)
+        return SourceProgress(min(1.0, speed), min(1.0, amplitude), source.is_resting, left_s)
+
+    def _resume(self, source_id: str, source: Source, now: int, progress: SourceProgress) -> None:
+        """Let a source go on where that of a saved game was."""
+        source.is_resting = progress.is_resting
+        self._begin_turn(source_id, source, now, 0.0)
+        if source_id not in self._turns:
+            source.is_resting = False  # the state has no cycle any more
+        elif progress.turn_left_s is not None:
+            end, _ = self._turns[source_id]
+            self._turns[source_id] = (min(end, now + round(progress.turn_left_s * self._rate_hz)), source)
+        if progress.speed is not None and progress.amplitude is not None:
+            self._resumed[source_id] = (Running(progress.speed, progress.amplitude), source)
 
     def _follow_sources(self, now: int) -> None:
         """Update the stored data after sources were added or removed."""
@@ -144,11 +183,17 @@ class Switching:
         goes_up = source.is_running
         if goes_up == was_running or source.is_new:
             return
+        self._pass(source_id, source, now)
+
+    def _pass(self, source_id: str, source: Source, now: int, since: Running | None = None) -> None:
+        """Begin a start or a stop at the present speed and amplitude, or at given ones."""
+        goes_up = source.is_running
         before = self._passing.pop(source_id, None)
-        if source.passing is None:
-            before = None  # that of another state, which ended with it
-        at_rest = STILL if goes_up else STEADY
-        since = at_rest if before is None else self._playback.running(before.passage, now)
+        if source.passing is None or since is not None:
+            before = None  # that of another state, which ended with it, or of a game that was replaced
+        if since is None:
+            at_rest = STILL if goes_up else STEADY
+            since = at_rest if before is None else self._playback.running(before.passage, now)
         self._sources.let_pass(source_id, None)
         inferred = source.inferred.get(source.state)
         lasts_s = 0.0 if inferred is None else inferred.start_up_s if goes_up else inferred.wind_down_s

@@ -103,6 +103,19 @@ def test_failed_bake_is_reported(bridge: Bridge, desk: HapticBundle) -> None:
             client.ask("play", job=77)
 
 
+def test_a_scene_with_an_error_is_not_named_after_a_file_of_the_server(
+    bridge: Bridge, root: Path, desk: HapticBundle
+) -> None:
+    scene = json.loads(desk.snapshot.to_json())
+    wrong = {**scene, "objects": [{**scene["objects"][0], "id": f"box {i}"} for i in range(5001)]}
+    (root / "mine.json").write_text(json.dumps(wrong))
+    with Client(bridge().url) as client:
+        with pytest.raises(Refused, match="^the number of objects is 5,001"):
+            client.bake(scene=wrong)
+        with pytest.raises(Refused, match="^'mine.json': the number of objects is 5,001"):
+            client.bake(path="mine.json")
+
+
 def test_a_bake_is_cancelled(bridge: Bridge, root: Path, desk: HapticBundle) -> None:
     scene = json.loads(desk.snapshot.to_json())
     server = bridge()

@@ -203,3 +203,21 @@ def test_a_certificate_that_is_refused_is_not_asked_again() -> None:
     with pytest.raises(BackendUnavailable, match="certificate has expired") as caught:
         web.get("https://a.example/", LIMITS, transport=httpx.MockTransport(refused))
     assert not caught.value.retryable
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "localhost"])
+def test_a_server_of_this_machine_that_does_not_listen_is_not_asked_again(host: str) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        port = server.getsockname()[1]
+    with pytest.raises(BackendUnavailable, match="Start the server on this machine") as caught:
+        web.get(f"http://{host}:{port}/", LIMITS)
+    assert not caught.value.retryable
+
+
+def test_a_server_elsewhere_that_does_not_listen_is_asked_again() -> None:
+    def refused(request: httpx.Request) -> httpx.Response:
+        raise httpx.ConnectError("All connection attempts failed")
+
+    with pytest.raises(BackendUnavailable, match="Check the network") as caught:
+        web.get("https://a.example/", LIMITS, transport=httpx.MockTransport(refused))
+    assert caught.value.retryable

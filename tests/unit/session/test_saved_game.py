@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
 from scene2hap import HapticBundle, HapticSession, MemorySink, Pose, SceneSnapshot, Touch
+from scene2hap.errors import SessionError
 from scene2hap.session.mix.sources import SourceInfo
 from scenes import table_with_two_phones
 
@@ -18,7 +20,13 @@ TOUCHES = [Touch("left", "phone", (0.1, 0.73, 0.4)), Touch("right", "alarm", (1.
 
 def saved(session: HapticSession) -> str:
     sources = {
-        one.id: {"on": one.is_on, "state": one.state, "gain_db": one.gain_db, "mute": one.is_muted}
+        one.id: {
+            "on": one.is_on,
+            "state": one.state,
+            "gain_db": one.gain_db,
+            "mute": one.is_muted,
+            "progress": one.progress,
+        }
         for one in map(session.source, session.source_ids)
     }
     poses = {id: (pose.position_m, pose.rotation_xyzw) for id, pose in session.poses.items()}
@@ -58,6 +66,83 @@ def test_restored_session_gives_the_same_gains(settings: dict[str, Any]) -> None
     for session in (made, again):
         session.set_source("phone", mute=False)
     np.testing.assert_array_equal(again.update(touches=TOUCHES).gains, made.update(touches=TOUCHES).gains)
+
+
+def machine(**times: Any) -> HapticSession:
+    scene, bundle = table_with_two_phones()
+    phone = bundle.objects["phone"]
+    states = tuple(replace(state, **times) for state in phone.states)
+    objects = {**bundle.objects, "phone": replace(phone, states=states)}
+    session = HapticSession(scene, replace(bundle, objects=objects), {"prepare": "blocking"})
+    session.set_source("alarm", on=False)
+    return session
+
+
+def played(session: HapticSession, seconds: float) -> np.ndarray:
+    """RMS of the left hand in steps of 0.1 s, with an update every 20 ms."""
+    blocks = []
+    for _ in range(round(seconds * 50)):
+        session.update(touches=TOUCHES[:1])
+        blocks.append(session.render(960)[:, 0])
+    rms: np.ndarray = np.sqrt((np.concatenate(blocks).astype(np.float64).reshape(-1, 4800) ** 2).mean(axis=1))
+    return rms
+
+
+@pytest.mark.parametrize("goes_up", [True, False])
+@pytest.mark.parametrize("spins", [True, False])
+def test_start_or_stop_under_way_goes_on_in_a_restored_session(goes_up: bool, spins: bool) -> None:
+    times = {"start_up_s": 3.0, "wind_down_s": 3.0, "spins": spins}
+    made, again = machine(**times), machine(**times)
+    made.set_source("phone", on=not goes_up)
+    played(made, 0.2)
+    made.set_source("phone", on=goes_up)
+    played(made, 1.0)
+    take_over(json.loads(saved(made)), again)
+    one, other = made.source("phone"), again.source("phone")
+    assert one.is_running == other.is_running == goes_up
+    assert one.progress.amplitude is not None
+    assert other.progress.amplitude == pytest.approx(one.progress.amplitude, rel=1e-6)
+    assert other.progress.speed == pytest.approx(one.progress.speed, rel=1e-6)
+    before, after = played(made, 3.0), played(again, 3.0)
+    # Without the fade-in of a new session; a stop is steady for 30 ms at first.
+    np.testing.assert_allclose(after[1:], before[1:], atol=0.07 * before.max())
+
+
+def test_cycle_goes_on_in_a_restored_session() -> None:
+    times = {"on_s": 2.0, "off_s": 1.5}
+    made, again, switched = machine(**times), machine(**times), machine(**times)
+    made.set_source("phone", on=True)  # a new on-time
+    played(made, 0.2)
+    made.set_source("phone", on=True)
+    played(made, 2.6)  # 0.6 s of its off-time
+    data = saved(made)
+    for session in (again, switched):
+        take_over(json.loads(data), session)
+    assert not again.source("phone").is_running
+    before, after = played(made, 6.0), played(again, 6.0)
+    np.testing.assert_array_equal(after > 0.01, before > 0.01)
+    switched.set_source("phone", on=True)  # a person begins a new on-time, as ever
+    assert switched.source("phone").is_running
+
+
+def test_progress_of_a_state_without_a_cycle_is_left_out() -> None:
+    """The bundle may have been baked anew since the game was saved."""
+    session = machine()
+    session.set_source("phone", on=True, progress=[None, None, True, 100.0])
+    session.update(touches=TOUCHES)
+    assert session.source("phone").is_running
+    assert session.source("phone").progress == (None, None, False, None)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    ["half", [0.5], [0.5, None, False, None], [2.0, 0.5, False, None], [None, None, 1, None], [None, None, True, -1.0]],
+)
+def test_progress_of_another_form_is_refused(wrong: Any) -> None:
+    session = machine(on_s=2.0, off_s=1.5)
+    with pytest.raises(SessionError, match=r"progress|speed|amplitude|is_resting|turn_left_s"):
+        session.set_source("phone", on=False, progress=wrong)
+    assert session.source("phone").is_on
 
 
 def test_level_of_a_source_is_the_bundles_at_first() -> None:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 from pathlib import Path
 
 import pytest
@@ -211,14 +212,28 @@ def test_a_track_without_a_single_sample_is_refused() -> None:
         ({"source": "table", "on": False}, "step 2: no source 'table'"),
     ],
 )
-def test_a_wrong_step_is_named_before_the_first_frame(step: dict[str, object], sentence: str) -> None:
+def test_a_wrong_step_is_named_with_its_file_before_the_first_frame(
+    step: dict[str, object], sentence: str, tmp_path: Path
+) -> None:
     first = {"time_s": 0.0, "hand": "left", "touch": "table"}
-    track = TouchTrack.parse({"duration_s": 600, "steps": [first, {"time_s": 599.0, **step}]})
+    file = tmp_path / "tour.json"
+    file.write_text(json.dumps({"duration_s": 600, "steps": [first, {"time_s": 599.0, **step}]}))
+    track = TouchTrack.load(file)
     frames: list[PlayedFrame] = []
     sink = MemorySink()
     with (
         HapticSession(*table_with_two_phones(), sink=sink) as session,
-        pytest.raises((SessionError, UnknownObject), match=sentence),
+        pytest.raises((SessionError, UnknownObject), match=f"^{re.escape(str(file))}: {sentence}"),
     ):
         play_track(session, track, sink, on_frame=frames.append)
     assert not frames
+
+
+def test_a_wrong_step_of_a_track_without_a_file_is_named() -> None:
+    track = TouchTrack(duration_s=1.0, steps=[{"time_s": 0.0, "hand": "lft", "touch": "table"}])
+    sink = MemorySink()
+    with (
+        HapticSession(*table_with_two_phones(), sink=sink) as session,
+        pytest.raises(SessionError, match="^touches: step 1: no hand 'lft'"),
+    ):
+        play_track(session, track, sink)

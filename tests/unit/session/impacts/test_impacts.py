@@ -626,7 +626,7 @@ def test_burst_that_a_worker_starts_as_a_pause_begins_does_not_play_on_after_it(
 ) -> None:
     made = session()
     playback, wave = made._playback, wave_of(100.0, 0.5, RATE)
-    worker = Thread(target=lambda: playback.start_burst([wave], {playback.outputs[0]: [0.5]}, 0))
+    worker = Thread(target=lambda: playback.start_burst([wave], {playback.outputs["left"]: [0.5]}, 0))
     fade = playback._bursts.fade
 
     def slow_fade(given: Any) -> None:
@@ -696,6 +696,27 @@ def test_impact_that_a_worker_prepares_while_a_hand_is_removed_is_felt_by_its_ha
     go_on.set()
     made.wait_prepared()
     assert rendered(made, 0.2).any() == (touching == "right")
+
+
+def test_strike_while_another_thread_changes_the_hands_is_felt_by_its_hand(monkeypatch: pytest.MonkeyPatch) -> None:
+    made = session()
+    made.update(touches=[Touch("right", "table", NEAR)])
+    struck: list[Impact] = []
+    for name in ("add_hand", "remove_hand"):
+        change = getattr(made._playback, name)
+
+        def changed(*hand: Any, change: Any = change) -> None:
+            change(*hand)
+            # The mix has the new hands here, and the session still the former ones.
+            struck.append(made.strike("table", STRUCK, with_object=(None, "cup")[len(struck)]))
+
+        monkeypatch.setattr(made._playback, name, changed)
+    made.add_hand("foot")
+    made.remove_hand("left")
+    assert [[*impact.felt] for impact in struck] == [["right"], ["right"]]
+    mixed = rendered(made, 0.2)
+    assert mixed[:, made.hands.index("right")].any()
+    assert not mixed[:, made.hands.index("foot")].any()
 
 
 @pytest.mark.parametrize(("late_s", "is_felt"), [(0.2, True), (0.4, False)])

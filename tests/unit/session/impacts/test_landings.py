@@ -117,6 +117,23 @@ def test_a_landing_early_in_a_frame_is_as_fast_as_one_late_in_it(begins: float, 
     assert found.speed_m_s == pytest.approx(1.5)
 
 
+@pytest.mark.parametrize("frames_hz", [30, 60, 90, 120])
+def test_a_landing_soon_after_a_motion_began_is_as_fast_as_a_later_one(frames_hz: int) -> None:
+    """The control period, 20 ms, says nothing of the time in which the first step was made."""
+    speed_m_s = 2.1
+    rests_m = RESTS_M + 2.5 * speed_m_s / frames_hz  # it lands in the third frame
+    graph = room(box("cup", (0.08, 0.12, 0.08), (0.0, rests_m, 0.0)), without="cup")
+    landings, found = Landings(graph, _middle, _half, _without_hinge, _not_closed, 0.02), list[Landing]()
+    for frame in range(60):
+        fell_m = speed_m_s * max(0, frame - 20) / frames_hz
+        poses = {"cup": Pose((0.0, max(RESTS_M, rests_m - fell_m), 0.0))} if frame > 20 else {}
+        landings.begin(poses, frame / frames_hz)
+        graph.update(poses)
+        found += landings.look(poses, frame / frames_hz)
+    (one,) = found
+    assert one.speed_m_s == pytest.approx(speed_m_s)
+
+
 @pytest.mark.parametrize("physics_hz", [50, 45, 40])
 @pytest.mark.parametrize("height_m", [0.04, 0.05, 0.06])
 @pytest.mark.parametrize("phase", [0.0, 0.2, 0.4, 0.6, 0.8])
