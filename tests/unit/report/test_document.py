@@ -103,12 +103,24 @@ def test_silent_and_single_scenes_have_a_page_too(mug: HapticBundle) -> None:
 def test_a_report_is_a_file_of_json(mug: HapticBundle, tmp_path: Path) -> None:
     path = write_report(mug, tmp_path / "mug.json", most_points=200)
     assert json.loads(path.read_text())["format"] == "scene2hap/report"
-    with pytest.raises(ConfigError, match="cannot be written"):
-        write_report(mug, tmp_path / "absent" / "mug.json", most_points=200)
+    assert write_report(mug, tmp_path / "new" / "mug.json", most_points=200).is_file()
     with pytest.raises(ConfigError, match=r"must end in \.html"):
         write_report(mug, tmp_path / "mug.pdf")
+    with pytest.raises(ConfigError, match=r"'\.' must end in \.html"):
+        write_report(mug, ".")
     with pytest.raises(ConfigError, match="most_points is 0"):
         write_report(mug, path, most_points=0)
+
+
+def test_a_place_that_cannot_be_written_is_refused_before_the_work(
+    mug: HapticBundle, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("scene2hap.report.report_document", lambda *_, **__: pytest.fail("computed"))
+    (tmp_path / "file").write_text("mine")
+    (tmp_path / "folder.html").mkdir()
+    for wrong in ("file/mug.html", "file/deeper/mug.html", "folder.html", f"{'x' * 300}.html"):
+        with pytest.raises(ConfigError, match=r"cannot be written: .*\. (Choose|Give)"):
+            write_report(mug, tmp_path / wrong)
 
 
 def test_the_command_writes_a_page(kitchen: HapticBundle, tmp_path: Path) -> None:
