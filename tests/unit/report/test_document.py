@@ -17,6 +17,7 @@ from scene2hap.errors import ConfigError
 from scene2hap.report import report_document, write_report
 from scene2hap.report.felt_map import ALL_BANDS, ALL_SOURCES, felt_map
 from scene2hap.report.surface_points import patches_of
+from scene2hap.scene.objects import UpAxis
 
 
 @pytest.fixture(scope="module")
@@ -86,6 +87,16 @@ def test_the_document_is_plain_data_with_sounds_that_play(kitchen: HapticBundle)
     n_points = sum(patch["n_points"] for patch in found["felt"]["patches"])
     for bands in found["felt"]["levels"]["exponential_plate"].values():
         assert {len(base64.b64decode(levels)) for levels in bands.values()} == {2 * n_points}
+
+
+@pytest.mark.parametrize(("up", "turned"), [("y", Pose()), ("z", Pose.from_euler((0, 0, 0), (np.pi / 2,), order="x"))])
+def test_points_of_a_mat_lie_on_its_upper_side(up: UpAxis, turned: Pose) -> None:
+    """Points on both sides would make a torn surface, which the floor hides in part."""
+    mat = SceneObject("mat", pose=turned, geometry=Box((0.7, 0.016, 0.4)))
+    (patch,) = patches_of([mat], 400, up)
+    heights = patch.points_m[:, "xyz".index(up)]
+    assert len(heights) > 50
+    np.testing.assert_allclose(heights, heights.max(), atol=1e-6)
 
 
 def test_a_corrected_name_is_the_one_to_edit(mug: HapticBundle) -> None:
