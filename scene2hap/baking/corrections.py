@@ -8,7 +8,7 @@ from pathlib import Path
 
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.sound import Progress, no_progress
-from scene2hap.bundle import BundleWarning, HapticBundle, Override
+from scene2hap.bundle import BundleWarning, HapticBundle, Override, read_bundle
 from scene2hap.common import checks
 from scene2hap.common.counted import counted
 from scene2hap.common.warning import warn_of
@@ -52,8 +52,14 @@ def overrides_of_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) 
 
 
 def bundle_with_locked(folder: Path, overrides: Mapping[str, Override]) -> HapticBundle | None:
-    """Return the bundle in a folder if a person has locked loops in it, None otherwise. Raises: BundleError."""
-    return HapticBundle.load(folder) if any(override.locked for override in overrides.values()) else None
+    """Return the bundle in a folder, without its overrides, if a person has locked loops in it, None otherwise.
+
+    Its overrides may be those of the next scene: a person renames objects in them before the scene is baked again.
+    Raises: BundleError.
+    """
+    if not any(override.locked for override in overrides.values()):
+        return None
+    return HapticBundle(**vars(read_bundle(folder, overrides={})))
 
 
 async def infer_corrected(

@@ -2,7 +2,7 @@
 
 from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.differences import Difference, differences
-from scene2hap.bundle.folder import read_overrides, write_both
+from scene2hap.bundle.folder import read_bundle, read_overrides, write_both, write_keeping_folder
 from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
 from scene2hap.bundle.haptic_bundle import HapticBundle
 from scene2hap.bundle.history import pop, step_beside, steps_beside
@@ -19,10 +19,12 @@ __all__ = [
     "differences",
     "file_stems",
     "pop",
+    "read_bundle",
     "read_overrides",
     "require_replaceable",
     "save_stamp",
     "step_beside",
     "steps_beside",
     "write_both",
+    "write_keeping_folder",
 ]

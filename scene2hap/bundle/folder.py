@@ -18,7 +18,7 @@ import json
 import os
 import re
 import stat
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, fields, replace
 from pathlib import Path
@@ -33,7 +33,7 @@ from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.corrections import FORMAT as CORRECTIONS_FORMAT
 from scene2hap.bundle.files import inside, own_file, read_bytes, read_json
 from scene2hap.bundle.folder_replacement import recover, replaced
-from scene2hap.bundle.history import Kind, push, step_beside, steps_beside
+from scene2hap.bundle.history import Kind, keep, push, step_beside, steps_beside
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.manifest import FORMAT, MANIFEST, VERSION, read_manifest, require_folder
 from scene2hap.bundle.override import Override
@@ -87,6 +87,19 @@ def write_both(
             return write_bundle(bundle, target, since)
     except OSError as cause:
         raise BundleError(unwritable(kept, cause)) from cause
+
+
+def write_keeping_folder(bundle: BundleContents, target: Path) -> Path:
+    """Write a bundle over a folder that cannot be read, and keep that folder as it is, as the nearest step back.
+
+    Otherwise as `write_bundle`.
+    """
+    try:
+        with replaced(target, retire=keep) as draft:
+            _write(bundle, draft)
+    except OSError as cause:
+        raise BundleError(unwritable(target, cause)) from cause
+    return target
 
 
 def _write(bundle: BundleContents, folder: Path, like: Path | None = None) -> None:
@@ -150,9 +163,10 @@ def _linked(existing: Path, new: Path, content: bytes) -> bool:
     return True
 
 
-def read_bundle(folder: Path) -> BundleContents:
+def read_bundle(folder: Path, overrides: Mapping[str, Override] | None = None) -> BundleContents:
     """Read a folder that `write_bundle` wrote, even if edited. If it is replaced during reading, read it again.
 
+    `overrides` : overrides in the place of those in the folder, which are then not read.
     Raises: BundleIncomplete, BundleVersionError, BundleError: see `HapticBundle.load`.
     Warns: BundleWarning: an interrupted save was completed first.
     """
@@ -161,7 +175,7 @@ def read_bundle(folder: Path) -> BundleContents:
     for _ in range(_MOST_READINGS):
         begun = _identity(folder)
         try:
-            bundle = _read(folder)
+            bundle = _read(folder, overrides)
         except BundleError:
             if _identity(folder) == begun:
                 raise
@@ -171,7 +185,7 @@ def read_bundle(folder: Path) -> BundleContents:
     raise BundleIncomplete(f"{folder} was replaced {_MOST_READINGS} times while it was read. Read it again later.")
 
 
-def _read(folder: Path) -> BundleContents:
+def _read(folder: Path, overrides: Mapping[str, Override] | None) -> BundleContents:
     with _reading(folder / MANIFEST):
         manifest = read_manifest(folder)
         missing = [name for name in manifest.get("files", []) if not inside(folder, name).is_file()]
@@ -197,7 +211,8 @@ def _read(folder: Path) -> BundleContents:
     for key in loops:
         if key not in objects:
             raise BundleError(f"{folder / 'objects.json'} lacks {key[:200]!r}, which has loops. Bake again.")
-    overrides = read_overrides(folder)
+    if overrides is None:
+        overrides = read_overrides(folder)
     with _reading(folder / "overrides.json"):
         _require_objects(overrides, scene)
     with _reading(folder / MANIFEST):

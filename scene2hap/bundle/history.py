@@ -34,18 +34,27 @@ def push(old: Path, nearest: Path) -> None:
 
     Raises: OSError, BundleError: a folder cannot be moved or removed.
     """
+    _insert(old, nearest, _places(nearest)[1:])
+
+
+def keep(old: Path, bundle: Path) -> None:
+    """Keep the folder `old`, which `bundle` has replaced, as it is: as the nearest step back. Otherwise as `push`."""
+    _insert(old, bundle, _places(step_beside(bundle, "before")))
+
+
+def _insert(old: Path, new: Path, places: list[Path]) -> None:
+    """Move the folder `old`, which `new` has replaced, to the first place, and the folders there one place on."""
     if not os.path.lexists(old / MANIFEST):  # an empty folder
-        discard(old, nearest)
+        discard(old, new)
         return
-    places = _places(nearest)
-    free = next((number for number, place in enumerate(places) if number and not os.path.lexists(place)), None)
+    free = next((number for number, place in enumerate(places) if not os.path.lexists(place)), None)
     if free is None:
-        discard(places[-1], nearest)
-        free = MOST_STEPS - 1
-    for number in range(free, 1, -1):
+        discard(places[-1], new)
+        free = len(places) - 1
+    for number in range(free, 0, -1):
         places[number - 1].rename(places[number])
-    old.rename(places[1])
-    shutil.copymode(nearest, places[1])
+    old.rename(places[0])
+    shutil.copymode(new, places[0])
 
 
 def pop(bundle: Path, kind: Kind) -> None:

@@ -92,6 +92,8 @@ class CommandParser(argparse.ArgumentParser):
     """
 
     _given: Sequence[str] = ()
+    of_commands: Sequence[str] = ()
+    """Options that every command takes, and this parser does not."""
 
     def __init__(self, *arguments: Any, module: str | None = None, **settings: Any) -> None:
         """Take the arguments of argparse, and the module whose command this parser reads."""
@@ -134,6 +136,8 @@ class CommandParser(argparse.ArgumentParser):
 
     def _hint(self) -> str:
         """Return how to write the first argument that may be a name but looks like an option."""
+        if self._given and self._given[0] in self.of_commands:
+            return f". Write {self._given[0]} after the command"
         for text in self._given:
             if text == "--":
                 break
@@ -160,6 +164,7 @@ def command_parser() -> argparse.ArgumentParser:
     common = CommandParser(add_help=False)
     common.add_argument("-q", "--quiet", action="store_true", help="show no progress and no tables")
     common.add_argument("--json", action="store_true", help="print the result as JSON instead of tables")
+    parser.of_commands = tuple(common._option_string_actions)
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     for name, line in COMMANDS.items():
         commands.add_parser(

@@ -331,10 +331,15 @@ def write_edited(
 ) -> Path:
     """Write a bundle, keep the one before as a step back, and remove the steps forward. Raises: as `write_both`."""
     write_both(after, folder, before, "before", since)
+    drop_steps_forward(folder, console)
+    return folder
+
+
+def drop_steps_forward(folder: Path, console: Console) -> None:
+    """Remove the steps that `redo` would restore. A step that cannot be removed is reported as a warning."""
     with _warned_of(console, folder):
         while steps_beside(folder, "after"):
             pop(folder, "after")
-    return folder
 
 
 @contextlib.contextmanager

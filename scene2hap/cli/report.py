@@ -61,7 +61,7 @@ def _page(arguments: argparse.Namespace, bundle: HapticBundle, console: Console)
     """Write the page, and serve it if requested."""
     # Imported here, since no other command draws pages.
     from scene2hap.bundle.account import read_account
-    from scene2hap.report import report_document, write_report
+    from scene2hap.report import report_document, require_target, write_report
     from scene2hap.report.felt_map import MODELS
     from scene2hap.report.page import assemble
     from scene2hap.report.serve import ReportServer
@@ -69,6 +69,8 @@ def _page(arguments: argparse.Namespace, bundle: HapticBundle, console: Console)
     from scene2hap.scene.load import load_scene
 
     pictures = None
+    if arguments.output:
+        require_target(arguments.output)  # before pictures are rendered
     if arguments.scene:
         pictures = capture_images(load_scene(arguments.scene), config={"size_px": _PICTURE_PX})
     models, account = tuple(arguments.model or MODELS), read_account(arguments.bundle)

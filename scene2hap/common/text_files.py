@@ -79,6 +79,21 @@ def draft_path(path: Path) -> Path:
     return path.with_name(f"{_draft_stem(path)}{uuid.uuid4().hex}.part{path.suffix}")
 
 
+def require_place(path: Path) -> None:
+    """Check before long work that a file can be written later. Folders above it may be missing; a writer makes them.
+
+    Raises: OSError: a folder or a device is there, one above is no folder of yours, or a name is too long.
+    """
+    draft_path(path)
+    if path.is_dir():
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    above = next(folder for folder in path.absolute().parents if folder.exists())
+    if not above.is_dir():
+        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR))
+    if not os.access(above, os.W_OK | os.X_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+
+
 def drafts_of(path: Path) -> list[Path]:
     """Return the drafts of a file that exist. Raises: OSError."""
     ours = re.compile(re.escape(_draft_stem(path)) + "[0-9a-f]{32}" + re.escape(f".part{path.suffix}"))

@@ -11,7 +11,7 @@ from scene2hap.clips.haptic_clip import RANGE_HZ, Curve, HapticClip, Transient
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ConfigError
-from scene2hap.export.envelope import FLOOR_DB, Envelope, Pulse, Signal, decibels
+from scene2hap.export.envelope import FLOOR_DB, SMOOTHED_S, Envelope, Pulse, Signal, decibels
 from scene2hap.export.fidelity import fidelity
 from scene2hap.export.simplify import simplified
 from scene2hap.export.track import Channel
@@ -61,10 +61,11 @@ def curves_of(channel: Channel, settings: CurveSettings, *, power: float = 1.0) 
     if channel.clip is not None:
         lines = {name: getattr(channel.clip, name) for name in ("amplitude", "frequency")}
         return replace(channel.clip, **{name: curve and replace(curve, power=power) for name, curve in lines.items()})
-    plain = _clip(channel.envelope, settings, power, with_pulses=False)
-    if not settings.transients or not channel.envelope.pulses:
+    envelope = channel.envelope_over(min(SMOOTHED_S, 1.0 / settings.amplitude_points))
+    plain = _clip(envelope, settings, power, with_pulses=False)
+    if not settings.transients or not envelope.pulses:
         return plain
-    pulsed = _clip(channel.envelope, settings, power, with_pulses=True)
+    pulsed = _clip(envelope, settings, power, with_pulses=True)
     errors = [fidelity(channel, clip) for clip in (plain, pulsed)]
     missed_db = [one.median_db + one.p95_db for one in errors]
     return plain if missed_db[0] <= missed_db[1] else pulsed

@@ -8,7 +8,7 @@ end within `LONGEST_PULSE_S`. A train of pulses closer than `APART_S` is roughne
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
@@ -22,7 +22,8 @@ Signal = NDArray[np.float64]
 STEP_S = 0.005
 """Time between two values of an envelope [s]."""
 SMOOTHED_S = 0.025
-"""Width at half height of the window that smooths power [s]: the distance of points at 40 points a second."""
+"""Width at half height of the window that smooths power [s]: the distance of points at 40 points a second. Exports with
+more points smooth less."""
 FLOOR_DB = -40.0
 """Floor of amplitudes relative to the peak [dB]; weaker vibration is not felt beside the rest."""
 
@@ -56,11 +57,18 @@ class Envelope:
     frequency_hz: Signal
     pulses: tuple[Pulse, ...] = ()
     is_loop: bool = False
+    smoothed_s: float = SMOOTHED_S
 
     @property
     def duration_s(self) -> float:
         """Length [s]."""
         return float(self.times_s[-1])
+
+    def smoothed_over(self, smoothed_s: float, samples: Signal, sample_rate_hz: float) -> Envelope:
+        """Return the envelope of the same signal (n_samples,), with its power smoothed over another time [s]."""
+        amplitude, times = amplitude_of(samples, sample_rate_hz, is_loop=self.is_loop, smoothed_s=smoothed_s)
+        pulses = _pulses(times, amplitude, self.frequency_hz)
+        return replace(self, amplitude=amplitude, pulses=pulses, smoothed_s=smoothed_s)
 
     def sharpened(self) -> Signal:
         """Return the amplitude (n,) that gives this envelope when it is played and analysed again.
@@ -68,7 +76,7 @@ class Envelope:
         The analysis smooths the signal again, so some steps of Richardson (1972) and Lucy (1974) undo that. This
         preserves attacks.
         """
-        window = hann(2 * round(SMOOTHED_S / STEP_S) + 1)
+        window = hann(2 * round(self.smoothed_s / STEP_S) + 1)
         half = len(window) // 2
 
         def smooth(values: Signal) -> Signal:
@@ -79,7 +87,8 @@ class Envelope:
         inside = smooth(np.ones(len(self.times_s)))
         power = np.maximum(self.amplitude**2, 1e-12)
         found = power.copy()
-        for _ in range(_SHARPENING_STEPS):
+        # In steps of 5 ms the window is wider than a shorter smoothing: more steps would exaggerate roughness.
+        for _ in range(_SHARPENING_STEPS if self.smoothed_s >= SMOOTHED_S else 1):
             found *= np.clip(power / (smooth(found) / inside), 0.1, 10.0)
         return np.sqrt(found)
 

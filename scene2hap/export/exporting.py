@@ -22,7 +22,7 @@ from scene2hap.clips.reading import is_haptic_clip, read_haptic_clip
 from scene2hap.clips.synthesis import RATE_HZ, synthesize
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
-from scene2hap.common.text_files import write_whole
+from scene2hap.common.text_files import require_place, write_whole
 from scene2hap.devices.memory import MemorySink
 from scene2hap.errors import ConfigError, ExportError, unwritable
 from scene2hap.export.fidelity import fidelity
@@ -63,7 +63,7 @@ def export_bundle(
     folder cannot be written. Files are written atomically, the manifest last. Then files of these kinds are removed
     that an earlier manifest of this scene lists for a source, and the new one does not.
     """
-    exporters = _exporters(to)
+    exporters, folder = _exporters(to), _place(folder)
     if not isinstance(bundle, HapticBundle):
         raise ExportError(
             f"bundle is {checks.described(bundle)}; it must be a HapticBundle, as HapticBundle.load(folder) reads."
@@ -88,9 +88,7 @@ def export_bundle(
         found = manifest_of(bundle, report, names, tours, settings.propagation)
         return json_bytes(found.model_dump(mode="json"))
 
-    return _write(
-        list(tracks.values()), exporters, checks.path("folder", folder, error=ExportError), manifest, progress
-    )
+    return _write(list(tracks.values()), exporters, folder, manifest, progress)
 
 
 @clear_call
@@ -107,7 +105,7 @@ def export_clip(
     Raises: AudioError, ClipError: the file cannot be read; and as `export_bundle`.
     """
     path = checks.path("path", path, error=ExportError)
-    exporters = _exporters(to)
+    exporters, folder = _exporters(to), _place(folder)
     if is_haptic_clip(path):
         clip = read_haptic_clip(path)
         channels = {"": Channel(np.clip(synthesize(clip), -1.0, 1.0), RATE_HZ, clip=clip)}
@@ -118,7 +116,7 @@ def export_clip(
         names = _CHANNEL_NAMES.get(samples.shape[1], [f"channel_{i + 1}" for i in range(samples.shape[1])])
         channels = {name: Channel(one, rate) for name, one in zip(names, samples.T, strict=True)}
     track = Track(file_stem(path.stem), channels)
-    return _write([track], exporters, checks.path("folder", folder, error=ExportError), None, progress)
+    return _write([track], exporters, folder, None, progress)
 
 
 def _without_offset(samples: Signal, rate_hz: float) -> Signal:
@@ -132,6 +130,16 @@ def _without_offset(samples: Signal, rate_hz: float) -> Signal:
     offset = np.median(blocks, axis=0)
     holds = np.percentile(blocks * np.sign(offset), 5, axis=0) >= np.abs(offset) / 2
     return np.where(holds, samples - offset, samples)
+
+
+def _place(folder: str | os.PathLike[str]) -> Path:
+    """Return the folder as a path. Raises: ExportError: it cannot be written, which is found before long work."""
+    place = checks.path("folder", folder, error=ExportError)
+    try:
+        require_place(place / NAME)
+    except OSError as cause:
+        raise ExportError(unwritable(place, cause)) from cause
+    return place
 
 
 def _exporters(to: Kinds) -> dict[str, Exporter]:

@@ -98,6 +98,12 @@ class Channel:
         """Amplitude, frequency and transients over time."""
         return analyse(self.at_rate(ANALYSIS_HZ), ANALYSIS_HZ, is_loop=self.is_loop)
 
+    def envelope_over(self, smoothed_s: float) -> Envelope:
+        """Return the envelope with its power smoothed over another time [s]."""
+        if smoothed_s == self.envelope.smoothed_s:
+            return self.envelope
+        return self.envelope.smoothed_over(smoothed_s, self.at_rate(ANALYSIS_HZ), ANALYSIS_HZ)
+
 
 @clear_construction
 @dataclass(frozen=True, eq=False)

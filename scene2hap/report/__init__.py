@@ -14,7 +14,7 @@ from typing import Any
 from scene2hap.bundle import HapticBundle
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
-from scene2hap.common.text_files import write_whole
+from scene2hap.common.text_files import require_place, write_whole
 from scene2hap.errors import ConfigError, unwritable
 from scene2hap.report.document import report_document
 from scene2hap.report.felt_map import MODELS
@@ -39,15 +39,29 @@ def write_report(
 ) -> Path:
     """Write a bundle as a page (`.html`) or its document (`.json`), whole or not at all. Returns its path.
 
-    Parameters and errors: `report_document`. Raises: ConfigError: another suffix, or the file cannot be written.
+    Missing folders are made. Parameters and errors: `report_document`. Raises: ConfigError: as `require_target`.
     """
-    target = checks.path("path", path, error=ConfigError)
-    if target.suffix.lower() not in _SUFFIXES:
-        raise ConfigError(f"{target.name!r} must end in .html, for a page, or in .json, for its data.")
+    target = require_target(path)
     found = report_document(bundle, models=models, pictures=pictures, most_points=most_points, account=account)
     is_page = target.suffix.lower() != ".json"
     try:
+        target.parent.mkdir(parents=True, exist_ok=True)
         write_whole(target, assemble(found) if is_page else json.dumps(found, allow_nan=False))
+    except OSError as cause:
+        raise ConfigError(unwritable(target, cause)) from cause
+    return target
+
+
+def require_target(path: str | os.PathLike[str]) -> Path:
+    """Return the path of a report, checked before the report is computed, which takes seconds.
+
+    Raises: ConfigError: another suffix than .html, .htm and .json, or the file cannot be written.
+    """
+    target = checks.path("path", path, error=ConfigError)
+    if target.suffix.lower() not in _SUFFIXES:
+        raise ConfigError(f"{str(target)!r} must end in .html, for a page, or in .json, for its data.")
+    try:
+        require_place(target)
     except OSError as cause:
         raise ConfigError(unwritable(target, cause)) from cause
     return target

@@ -60,7 +60,8 @@ def felt_map(
     several uses; shells : objects without points on the map; most_points : most surface points in total.
     Raises: ConfigError: no such model. ModelDomainError: a model does not hold in this scene.
     """
-    patches = patches_of([item for item in bundle.snapshot.objects if item.id not in shells], most_points)
+    inside = [item for item in bundle.snapshot.objects if item.id not in shells]
+    patches = patches_of(inside, most_points, bundle.snapshot.up_axis)
     touches = [
         Touch("hand", patch.object_id, (float(x), float(y), float(z)))
         for patch in patches

@@ -249,3 +249,10 @@ def test_a_name_like_an_option_is_explained(capsys: pytest.CaptureFixture[str], 
     with pytest.raises(SystemExit):
         main(words)
     assert f"'{words[-1]}' is read as an option; write -- before names" in capsys.readouterr().err
+
+
+def test_an_option_of_commands_before_the_command_is_explained(capsys: pytest.CaptureFixture[str]) -> None:
+    for words, is_told in ((["--json", "inspect", "x.glb"], True), (["inspect", "x.glb", "--json", "--bogus"], False)):
+        with pytest.raises(SystemExit):
+            main(words)
+        assert ("Write --json after the command" in capsys.readouterr().err) == is_told

@@ -451,6 +451,8 @@ def test_a_bake_says_which_corrections_it_drops_and_can_be_undone(
     """The table was renamed in the scene: its corrections are named, with the likely new id, and nothing is lost."""
     folder = kitchen()
     assert main(["edit", str(folder), "material", "oak table", "steel", "-q"]) == 0
+    assert main(["edit", str(folder), "pitch", "fan", "97", "-q"]) == 0
+    assert main(["edit", str(folder), "lock", "fan", "-q"]) == 0
     corrected = HapticBundle.load(folder)
     document = json.loads(Path(room(tmp_path)).read_text(encoding="utf-8"))
     for item in document["objects"]:
@@ -471,7 +473,37 @@ def test_a_bake_says_which_corrections_it_drops_and_can_be_undone(
     corrections = folder / "overrides.json"
     corrections.write_text(corrections.read_text().replace('"oak table"', '"oak table.001"'))
     assert main(["bake", str(renamed), "-o", str(folder), "-q"]) == 0
-    assert HapticBundle.load(folder).overrides == {"oak table.001": corrected.overrides["oak table"]}
+    baked = HapticBundle.load(folder)
+    assert baked.overrides == {
+        "oak table.001": corrected.overrides["oak table"],
+        "fan": corrected.overrides["fan"],
+    }
+    assert baked.loops["fan"] == corrected.loops["fan"]
+
+
+def test_a_bake_keeps_the_folder_that_it_cannot_read(
+    kitchen: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """After a typing mistake in one file, the edits by hand in all others are still there, and undo can be mended."""
+    folder = kitchen()
+    assert main(["edit", str(folder), "gain", "fan", "-6", "-q"]) == 0
+    assert main(["edit", str(folder), "undo", "-q"]) == 0
+    path = folder / "objects.json"
+    objects = path.read_text(encoding="utf-8").replace('"usage": "', '"usage": "by hand: ', 1)
+    path.write_text(objects[:-3], encoding="utf-8")
+    capsys.readouterr()
+    assert main(["bake", room(tmp_path), "-o", str(folder)]) == 0
+    kept = folder.with_name(f"{folder.name}.before")
+    said = " ".join(capsys.readouterr().out.split())
+    assert "objects.json cannot be read" in said
+    assert str(kept.name) in said
+    assert (kept / "objects.json").read_text(encoding="utf-8") == objects[:-3]
+    assert not folder.with_name(f"{folder.name}.after").exists()
+    assert main(["edit", str(folder), "undo", "-q"]) == 1
+    assert f"{kept.name}/objects.json" in capsys.readouterr().err.replace("\\", "/")
+    (kept / "objects.json").write_text(objects, encoding="utf-8")
+    assert main(["edit", str(folder), "undo", "-q"]) == 0
+    assert any(one.usage.startswith("by hand: ") for one in HapticBundle.load(folder).objects.values())
 
 
 def test_a_comparison_shows_sizes_and_constants(

@@ -196,9 +196,10 @@ def test_an_exporter_writes_into_its_own_folder_only(tmp_path: Path, name: str) 
 
 
 def test_invalid_requests_get_an_error_and_write_nothing(
-    kitchen_bundle: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    kitchen_bundle: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bundle = HapticBundle.load(kitchen_bundle)
+    monkeypatch.setattr("scene2hap.export.exporting.file_stems", lambda _: pytest.fail("the work was begun"))
     out = tmp_path / "out"
     for to, told in (
         ("hapic", "no kind 'hapic'. Did you mean 'haptic'?"),

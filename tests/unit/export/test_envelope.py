@@ -61,6 +61,19 @@ def test_pulses_are_found_and_roughness_is_not_a_pulse() -> None:
     assert not analyse(rough, RATE, is_loop=True).pulses
 
 
+def test_more_points_keep_the_roughness_of_a_source() -> None:
+    """A tumble dryer is felt as 250 Hz, rough at 47 Hz; 40 points a second cannot hold that."""
+    rough = Channel(0.4 * np.sin(2 * np.pi * 250 * T) * (1 + 0.6 * np.sin(2 * np.pi * 47 * T)), RATE, is_loop=True)
+    depths = {}
+    for points in (40, 100, 200):
+        curve = curves_of(rough, CurveSettings(amplitude_points=points)).amplitude
+        played = np.interp(T, curve.times_s, curve.values)
+        depths[points] = 2 * abs(np.mean(played * np.exp(-2j * np.pi * 47 * T))) / played.mean()
+    assert depths[40] < 0.1
+    assert 0.3 < depths[100] < 0.6
+    assert depths[200] == pytest.approx(0.6, abs=0.05)
+
+
 @pytest.mark.parametrize("n", [1, 2, 7, 400])
 def test_short_and_silent_signals_have_an_envelope(n: int) -> None:
     for samples in (np.zeros(n), np.full(n, 0.5)):

@@ -17,6 +17,7 @@ from scene2hap.errors import ConfigError
 from scene2hap.report import report_document, write_report
 from scene2hap.report.felt_map import ALL_BANDS, ALL_SOURCES, felt_map
 from scene2hap.report.surface_points import patches_of
+from scene2hap.scene.objects import UpAxis
 
 
 @pytest.fixture(scope="module")
@@ -88,6 +89,16 @@ def test_the_document_is_plain_data_with_sounds_that_play(kitchen: HapticBundle)
         assert {len(base64.b64decode(levels)) for levels in bands.values()} == {2 * n_points}
 
 
+@pytest.mark.parametrize(("up", "turned"), [("y", Pose()), ("z", Pose.from_euler((0, 0, 0), (np.pi / 2,), order="x"))])
+def test_points_of_a_mat_lie_on_its_upper_side(up: UpAxis, turned: Pose) -> None:
+    """Points on both sides would make a torn surface, which the floor hides in part."""
+    mat = SceneObject("mat", pose=turned, geometry=Box((0.7, 0.016, 0.4)))
+    (patch,) = patches_of([mat], 400, up)
+    heights = patch.points_m[:, "xyz".index(up)]
+    assert len(heights) > 50
+    np.testing.assert_allclose(heights, heights.max(), atol=1e-6)
+
+
 def test_a_corrected_name_is_the_one_to_edit(mug: HapticBundle) -> None:
     (item,) = report_document(mug.override("mug", name="beer mug"), most_points=100)["objects"]
     assert item["editable"]["name"] == "beer mug"
@@ -103,12 +114,24 @@ def test_silent_and_single_scenes_have_a_page_too(mug: HapticBundle) -> None:
 def test_a_report_is_a_file_of_json(mug: HapticBundle, tmp_path: Path) -> None:
     path = write_report(mug, tmp_path / "mug.json", most_points=200)
     assert json.loads(path.read_text())["format"] == "scene2hap/report"
-    with pytest.raises(ConfigError, match="cannot be written"):
-        write_report(mug, tmp_path / "absent" / "mug.json", most_points=200)
+    assert write_report(mug, tmp_path / "new" / "mug.json", most_points=200).is_file()
     with pytest.raises(ConfigError, match=r"must end in \.html"):
         write_report(mug, tmp_path / "mug.pdf")
+    with pytest.raises(ConfigError, match=r"'\.' must end in \.html"):
+        write_report(mug, ".")
     with pytest.raises(ConfigError, match="most_points is 0"):
         write_report(mug, path, most_points=0)
+
+
+def test_a_place_that_cannot_be_written_is_refused_before_the_work(
+    mug: HapticBundle, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("scene2hap.report.report_document", lambda *_, **__: pytest.fail("computed"))
+    (tmp_path / "file").write_text("mine")
+    (tmp_path / "folder.html").mkdir()
+    for wrong in ("file/mug.html", "file/deeper/mug.html", "folder.html", f"{'x' * 300}.html"):
+        with pytest.raises(ConfigError, match=r"cannot be written: .*\. (Choose|Give)"):
+            write_report(mug, tmp_path / wrong)
 
 
 def test_the_command_writes_a_page(kitchen: HapticBundle, tmp_path: Path) -> None:
