@@ -45,6 +45,22 @@ def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("filterwarnings", "ignore::scene2hap.common.warning.SceneWarning")
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add an option for environments in which the same code runs once more."""
+    parser.addoption("--each-once", action="store_true", help="run each test with the first of its parameters alone")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Keep the first of the tests that differ in their parameters, with --each-once."""
+    if config.option.each_once:
+        firsts: dict[str, pytest.Item] = {}
+        for item in items:
+            firsts.setdefault(item.nodeid.partition("[")[0], item)
+        kept = set(firsts.values())
+        config.hook.pytest_deselected(items=[item for item in items if item not in kept])
+        items[:] = firsts.values()
+
+
 @pytest.hookimpl(wrapper=True, tryfirst=True)
 def pytest_collection() -> Iterator[None]:
     """Keep the garbage collector away while thousands of tests are made, all of which live until the end."""
