@@ -69,11 +69,11 @@ def given_touches(touches: object) -> list[Touch]:
     if isinstance(touches, Touch):
         return [touches]
     if isinstance(touches, str | Mapping):
-        _refuse_touches(touches)
+        _refuse_touches("is", touches)
     try:
         found = list(touches)  # type: ignore[call-overload]  # if it cannot, see below
     except Exception:  # an object of another type may raise any error
-        _refuse_touches(touches)
+        _refuse_touches("is", touches)
     return [_given_touch(one) for one in found]
 
 
@@ -81,7 +81,7 @@ def _given_touch(touch: object) -> Touch:
     if isinstance(touch, tuple) and len(touch) == 3:
         touch = Touch(*touch)
     if not isinstance(touch, Touch):
-        _refuse_touches(touch)
+        _refuse_touches("has", touch)
     if not isinstance(touch.hand, str):
         raise SessionError(f"hand is {checks.described(touch.hand)}; it must be a name. A touch is {_TOUCH}.")
     if not isinstance(touch.object_id, str):
@@ -89,10 +89,9 @@ def _given_touch(touch: object) -> Touch:
     return touch
 
 
-def _refuse_touches(touches: object) -> NoReturn:
+def _refuse_touches(verb: str, given: object) -> NoReturn:
     raise SessionError(
-        f"touches is or has {checks.represented(touches)} ({type(touches).__name__}); it must be a list of Touch, as "
-        f"[{_TOUCH}]."
+        f"touches {verb} {checks.represented(given)} ({type(given).__name__}); it must be a list of Touch, as [{_TOUCH}]."
     )
 
 
