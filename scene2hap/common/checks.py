@@ -272,7 +272,7 @@ def instances(
 ) -> tuple[Kind, ...]:
     """Return the items of a sequence, all of one type. Raises: `error`: any other value; states what is wanted."""
     verb, wrong = "is", value
-    if not isinstance(value, str | Mapping | kind):
+    if isinstance(value, Iterable) and not isinstance(value, str | Mapping | kind):
         found = items(name, value, at_most=_MOST_ITEMS, error=error)
         others = [item for item in found if not isinstance(item, kind)]
         if not others:

@@ -219,8 +219,8 @@ class SceneObject:
         """
         if not isinstance(other, SceneObject):
             raise SceneError(
-                f"other is {checks.described(other)}; it must be the SceneObject that holds {self.id!r}, whose pose the "
-                "hinge needs: door.hinged_on(wall, point_m). A Hinge names it by its id."
+                f"other is {checks.described(other)}; it must be the SceneObject that holds {self.id!r}, as in "
+                "door.hinged_on(wall, point_m): a hinge needs its pose."
             )
         at = [checks.vector("point_m", point_m, "m", size=3, error=SceneError)]
         own, theirs = (tuple(pose.to_own(at)[0].tolist()) for pose in (self.pose, other.pose))

@@ -5,7 +5,7 @@ An ordinary frame runs only `given_stamp`, `touches_by_hand` and `given_frames`,
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NoReturn
 
 from scene2hap.audio.haptic_loop import HapticLoop
@@ -90,9 +90,8 @@ def _given_touch(touch: object) -> Touch:
 
 
 def _refuse_touches(verb: str, given: object) -> NoReturn:
-    raise SessionError(
-        f"touches {verb} {checks.represented(given)} ({type(given).__name__}); it must be a list of Touch, as [{_TOUCH}]."
-    )
+    wrong = f"{checks.represented(given)} ({type(given).__name__})"
+    raise SessionError(f"touches {verb} {wrong}; it must be a list of Touch, as [{_TOUCH}].")
 
 
 def touches_by_hand(touches: Any, hands: Sequence[str], state: SceneState) -> Felt:
@@ -143,9 +142,8 @@ def require_pose(object_id: str, pose: object) -> None:
 
 def given_contacts(contacts: object) -> Sequence[Contact]:
     """Return contacts of an engine. Raises: SessionError: another type."""
-    given = contacts if isinstance(contacts, Iterable | Contact) else (contacts,)
     wanted = "a list, as [Contact('mug', 'table', point_m)]"
-    return checks.instances("contacts", given, Contact, wanted, error=SessionError)
+    return checks.instances("contacts", contacts, Contact, wanted, error=SessionError)
 
 
 def given_strike(

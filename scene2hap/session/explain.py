@@ -233,8 +233,8 @@ class Explainer:
         if unknown:
             yield (
                 f"The material of {', '.join(map(repr, unknown))} is unknown. Say what it is by bundle.override(id, "
-                "name=...), or what it is made of by override(id, material=...), then rebake(bundle); or give haptics= of "
-                "add."
+                "name=...), or what it is made of by override(id, material=...), then rebake(bundle); or give add its "
+                "haptics."
             )
         ids = self._sources.ids
         reach = self._state.reach(ids)
