@@ -231,7 +231,7 @@ def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iter
             tuple(ids[k] for k in alone),
             f"{_named(ids, alone)} {'float' if len(alone) > 1 else 'floats'}: {_first(ids, alone)} is "
             f"{nearest_m:.2f} m from the nearest other object, more than {_FLOATS_M} m. Move {_them(alone)} onto "
-            f"something, or touch {_them(alone)} alone.",
+            f"something; until then only a hand on {_them(alone)} feels {_them(alone)}.",
         )
 
 

@@ -282,6 +282,12 @@ def test_pictures_on_a_wall_do_not_tip_the_up_axis(more: tuple[str, ...]) -> Non
     assert SceneSnapshot.build(gallery(*more)).check() == ()
 
 
+def test_an_object_in_the_air_is_felt_by_a_hand_on_it() -> None:
+    ball = SceneObject("tennis ball", pose=Pose((0, 2.0, 0)), geometry=Box((0.07, 0.07, 0.07)))
+    (found,) = SceneSnapshot.build([*ROOM, ball]).check()
+    assert str(found).endswith("Move it onto something; until then only a hand on it feels it.")
+
+
 def test_a_roof_is_no_floor() -> None:
     roof = SceneObject("roof", pose=Pose((0, 2.6, 0)), geometry=Box((3.0, 0.2, 3.0)))
     posts = [
