@@ -35,8 +35,9 @@ def overrides_of_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) 
     is_mapping = isinstance(overrides, Mapping)
     wrong = [one for one in overrides.values() if not isinstance(one, Override)] if is_mapping else [overrides]
     if wrong:
+        verb = "has" if is_mapping else "is"
         raise ConfigError(
-            f"overrides is or has {checks.described(wrong[0])}; it must be a mapping of ids to Override, as "
+            f"overrides {verb} {checks.described(wrong[0])}; it must be a mapping of ids to Override, as "
             "`bundle.overrides` is."
         )
     known = {item.id for item in scene.objects}

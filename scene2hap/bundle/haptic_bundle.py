@@ -24,6 +24,7 @@ from scene2hap.common.calls import clear_calls
 from scene2hap.common.counted import counted
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import AudioError, BundleError, MaterialError, SceneError
+from scene2hap.haptics import is_unknown
 from scene2hap.materials import Material
 from scene2hap.scene.plausibility.check import too_heavy
 
@@ -221,7 +222,9 @@ class HapticBundle(BundleContents):
     def __repr__(self) -> str:
         n_sources = sum(map(bool, self.loops.values()))
         counts = f"{counted(len(self.snapshot.objects), 'object')}, {counted(n_sources, 'source')}"
-        return f"HapticBundle({self.snapshot.name!r}, {counts})"
+        n_unknown = sum(is_unknown(haptics.object_category) for haptics in self.objects.values())
+        unknown = f", {n_unknown} unknown" if n_unknown else ""
+        return f"HapticBundle({self.snapshot.name!r}, {counts}{unknown})"
 
     def _repr_html_(self) -> str:
         return bundle_table(self)

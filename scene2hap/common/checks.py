@@ -271,14 +271,14 @@ def instances(
     name: str, value: object, kind: type[Kind], wanted: str, *, error: type[Scene2HapError]
 ) -> tuple[Kind, ...]:
     """Return the items of a sequence, all of one type. Raises: `error`: any other value; states what is wanted."""
-    wrong = value
-    if not isinstance(value, str | Mapping | kind):
+    verb, wrong = "is", value
+    if isinstance(value, Iterable) and not isinstance(value, str | Mapping | kind):
         found = items(name, value, at_most=_MOST_ITEMS, error=error)
         others = [item for item in found if not isinstance(item, kind)]
         if not others:
             return found
-        wrong = others[0]
-    raise error(f"{name} is or has {described(wrong)}; it must be {wanted}.")
+        verb, wrong = "has", others[0]
+    raise error(f"{name} {verb} {described(wrong)}; it must be {wanted}.")
 
 
 def texts(name: str, value: object, *, error: type[Scene2HapError]) -> tuple[str, ...]:
@@ -286,8 +286,8 @@ def texts(name: str, value: object, *, error: type[Scene2HapError]) -> tuple[str
     found = value if isinstance(value, list | tuple) else ()
     wrong = [item for item in found if not isinstance(item, str)]
     if wrong or not isinstance(value, list | tuple):
-        given = represented(wrong[0] if wrong else value)
-        raise error(f"{name} is or has {given}; it must be a list of texts, as ['oak'].")
+        given = f"has {represented(wrong[0])}" if wrong else f"is {represented(value)}"
+        raise error(f"{name} {given}; it must be a list of texts, as ['oak'].")
     return tuple(found)
 
 

@@ -72,10 +72,10 @@ class ContactNetwork:
 
     def __post_init__(self) -> None:
         bodies = self.bodies
-        wrong = next(iter(bodies.values()), None) if isinstance(bodies, Mapping) else bodies
+        verb, wrong = ("has", next(iter(bodies.values()), None)) if isinstance(bodies, Mapping) else ("is", bodies)
         if wrong is not None and not isinstance(wrong, Plate | RigidBody):
             raise ModelDomainError(
-                f"bodies is or has {checks.described(wrong)}; it must be a mapping of object ids to Plate or RigidBody."
+                f"bodies {verb} {checks.described(wrong)}; it must be a mapping of object ids to Plate or RigidBody."
             )
         if self.up_axis not in (None, *VERTICAL):
             raise ModelDomainError(f"up_axis is {checks.represented(self.up_axis)}; it must be 'y', 'z' or None.")
@@ -237,13 +237,14 @@ def require_input(network: object, excitations: object, bands: object) -> None:
     """Raise a ModelDomainError unless these are valid arguments of a model's `prepare`."""
     some = next(iter(excitations), None) if isinstance(excitations, Sequence) else excitations
     is_excitation = isinstance(some, Excitation) or (some is None and isinstance(excitations, Sequence))
+    has_or_is = "is" if some is excitations else "has"
     for name, value, is_right, wanted in (
-        ("network", network, isinstance(network, ContactNetwork), "a ContactNetwork(bodies, contacts)"),
-        ("excitations", some, is_excitation, "a list of Excitation"),
-        ("bands", bands, isinstance(bands, Bands), "Bands, as Bands.third_octaves()"),
+        ("network is", network, isinstance(network, ContactNetwork), "a ContactNetwork(bodies, contacts)"),
+        (f"excitations {has_or_is}", some, is_excitation, "a list of Excitation"),
+        ("bands is", bands, isinstance(bands, Bands), "Bands, as Bands.third_octaves()"),
     ):
         if not is_right:
-            raise ModelDomainError(f"{name} is or has {checks.described(value)}; it must be {wanted}.")
+            raise ModelDomainError(f"{name} {checks.described(value)}; it must be {wanted}.")
 
 
 def require_hops(max_hops: int | None) -> None:

@@ -215,8 +215,13 @@ class SceneObject:
     def hinged_on(self, other: SceneObject, point_m: Iterable[float]) -> SceneObject:
         """Return the object with a hinge to another, at a world point [m] of their present poses.
 
-        Raises: SceneError: the point is not three finite numbers, or the other has the same id.
+        Raises: SceneError: the other is no SceneObject or has the same id, or the point is not three finite numbers.
         """
+        if not isinstance(other, SceneObject):
+            raise SceneError(
+                f"other is {checks.described(other)}; it must be the SceneObject that holds {self.id!r}, as in "
+                "door.hinged_on(wall, point_m): a hinge needs its pose."
+            )
         at = [checks.vector("point_m", point_m, "m", size=3, error=SceneError)]
         own, theirs = (tuple(pose.to_own(at)[0].tolist()) for pose in (self.pose, other.pose))
         held = replace(self, hinge=Hinge(other.id, own, theirs))

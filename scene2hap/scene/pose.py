@@ -211,7 +211,7 @@ def _warn_of_length(rotation: Iterable[float], length: float) -> None:
 def _warn_of_degrees(name: str, angle_rad: float) -> None:
     if angle_rad != 0.0 and angle_rad % _DEGREES == 0.0:
         warn_of(
-            f"{name} is or has {angle_rad:g} rad, {abs(angle_rad) / math.tau:.1f} turns, and looks like degrees; for "
+            f"{angle_rad:g} rad in {name} are {abs(angle_rad) / math.tau:.1f} turns, and look like degrees; for "
             f"degrees write math.radians({angle_rad:g})."
         )
 

@@ -5,7 +5,7 @@ An ordinary frame runs only `given_stamp`, `touches_by_hand` and `given_frames`,
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NoReturn
 
 from scene2hap.audio.haptic_loop import HapticLoop
@@ -69,11 +69,11 @@ def given_touches(touches: object) -> list[Touch]:
     if isinstance(touches, Touch):
         return [touches]
     if isinstance(touches, str | Mapping):
-        _refuse_touches(touches)
+        _refuse_touches("is", touches)
     try:
         found = list(touches)  # type: ignore[call-overload]  # if it cannot, see below
     except Exception:  # an object of another type may raise any error
-        _refuse_touches(touches)
+        _refuse_touches("is", touches)
     return [_given_touch(one) for one in found]
 
 
@@ -81,7 +81,7 @@ def _given_touch(touch: object) -> Touch:
     if isinstance(touch, tuple) and len(touch) == 3:
         touch = Touch(*touch)
     if not isinstance(touch, Touch):
-        _refuse_touches(touch)
+        _refuse_touches("has", touch)
     if not isinstance(touch.hand, str):
         raise SessionError(f"hand is {checks.described(touch.hand)}; it must be a name. A touch is {_TOUCH}.")
     if not isinstance(touch.object_id, str):
@@ -89,11 +89,9 @@ def _given_touch(touch: object) -> Touch:
     return touch
 
 
-def _refuse_touches(touches: object) -> NoReturn:
-    raise SessionError(
-        f"touches is or has {checks.represented(touches)} ({type(touches).__name__}); it must be a list of Touch, as "
-        f"[{_TOUCH}]."
-    )
+def _refuse_touches(verb: str, given: object) -> NoReturn:
+    wrong = f"{checks.represented(given)} ({type(given).__name__})"
+    raise SessionError(f"touches {verb} {wrong}; it must be a list of Touch, as [{_TOUCH}].")
 
 
 def touches_by_hand(touches: Any, hands: Sequence[str], state: SceneState) -> Felt:
@@ -144,9 +142,8 @@ def require_pose(object_id: str, pose: object) -> None:
 
 def given_contacts(contacts: object) -> Sequence[Contact]:
     """Return contacts of an engine. Raises: SessionError: another type."""
-    given = contacts if isinstance(contacts, Iterable | Contact) else (contacts,)
     wanted = "a list, as [Contact('mug', 'table', point_m)]"
-    return checks.instances("contacts", given, Contact, wanted, error=SessionError)
+    return checks.instances("contacts", contacts, Contact, wanted, error=SessionError)
 
 
 def given_strike(

@@ -232,8 +232,9 @@ class Explainer:
         unknown = sorted(on - self._state.bodies.keys())
         if unknown:
             yield (
-                f"The material of {', '.join(map(repr, unknown))} is unknown; give it by "
-                "bundle.override(id, material=...), or as haptics= of add."
+                f"The material of {', '.join(map(repr, unknown))} is unknown. Say what it is by bundle.override(id, "
+                "name=...), or what it is made of by override(id, material=...), then rebake(bundle); or give add its "
+                "haptics."
             )
         ids = self._sources.ids
         reach = self._state.reach(ids)

@@ -198,8 +198,8 @@ def require_hand(hand: object, hands: Sequence[str]) -> None:
 
 def unknown_hand(hand: object, hands: Sequence[str]) -> str:
     """The sentence for a name that is no hand."""
-    near = checks.did_you_mean(hand, hands)
-    return f"no hand {checks.represented(hand)}; this session has {', '.join(map(repr, hands))}. {near}".rstrip()
+    near = checks.did_you_mean(hand, hands, "Name all hands when the session is made (hands=), or call add_hand.")
+    return f"no hand {checks.represented(hand)}; this session has {', '.join(map(repr, hands))}. {near}"
 
 
 def unknown_source(source_id: str, source_ids: Sequence[str]) -> str:

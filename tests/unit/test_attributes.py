@@ -136,4 +136,7 @@ def test_large_data_are_shown_in_a_line(n_objects: int) -> None:
     assert repr(clip) == "AudioClip('untitled', 0.5 s, 48000 Hz)"
     assert repr(table) == f"PoseTable({count.replace('object', 'pose')})"
     assert repr(modes).startswith(f"PlateModes({count.replace('object', 'mode')}, 0 to ")
+    thing = scene2hap.ObjectHaptics("unknown", "unknown", None, (0.3, 0.2, 0.1), "", vibrates=False)
+    one_unknown = scene2hap.HapticBundle(scene, "kitchen", {"cup 0": thing}, {})
+    assert repr(one_unknown) == f"HapticBundle('shelf', {count}, 0 sources, 1 unknown)"
     assert repr(HapticSession(scene, bundle)) == f"HapticSession({count}, 0 sources, hands left, right)"

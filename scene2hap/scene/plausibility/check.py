@@ -36,7 +36,7 @@ _RESTS_M = 0.06  # Largest gap below an object at rest, about that of the contac
 # times the share along the up axis. Tuned: five scenes by others have 0.59-0.83 along the right axis, 1.7 to 2.7 times
 # as many as along the wrong axis.
 _MOST_RESTING, _MORE_RESTING = 0.5, 1.5
-_FEW = 4  # Fewer objects are not enough to find the up axis or the order of quaternions.
+_FEW = 4  # Fewer objects, none of them a floor, are not enough to find the up axis or the order of quaternions.
 # This many rotations with a first component of 1 show that w is first: read as (x, y, z, w), they turn objects upside
 # down.
 _TWO = 2
@@ -89,8 +89,8 @@ def findings(scene: SceneData) -> Iterator[Finding]:
     boxes = np.array([item.bounds_m for item in scene.objects])
     up = VERTICAL[scene.up_axis]
     resting, other = _resting_share(boxes, up), _resting_share(boxes, 3 - up)
-    is_doubtful = len(ids) >= _FEW and other >= max(_MOST_RESTING, _MORE_RESTING * resting)
-    if is_doubtful and not _has_level_ground(scene, boxes, up):
+    is_doubtful = other >= max(_MOST_RESTING, _MORE_RESTING * resting) and not _has_level_ground(scene, boxes, up)
+    if is_doubtful and (len(ids) >= _FEW or _has_level_ground(scene, boxes, 3 - up)):
         letter = "xyz"[3 - up]
         yield Finding(
             "up-axis",
@@ -186,9 +186,9 @@ def _resting_share(boxes: NDArray[np.float64], up: int) -> float:
 
 
 def _has_level_ground(scene: SceneData, boxes: NDArray[np.float64], up: int) -> bool:
-    """Return True if an object that is named as a floor is flat along the up axis.
+    """Return True if an object that is named as a floor is flat along an axis.
 
-    That shows the axis even where most objects hang on walls, as in a gallery.
+    That shows the up axis even where most objects hang on walls, as in a gallery, and where there are few objects.
     """
     sizes = np.ptp(boxes, axis=1)
     is_flat = sizes[:, up] <= _FLOOR_FLATNESS * np.delete(sizes, up, axis=1).min(axis=1)
@@ -231,7 +231,7 @@ def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iter
             tuple(ids[k] for k in alone),
             f"{_named(ids, alone)} {'float' if len(alone) > 1 else 'floats'}: {_first(ids, alone)} is "
             f"{nearest_m:.2f} m from the nearest other object, more than {_FLOATS_M} m. Move {_them(alone)} onto "
-            f"something, or touch {_them(alone)} alone.",
+            f"something; until then only a hand on {_them(alone)} feels {_them(alone)}.",
         )
 
 

@@ -58,7 +58,7 @@ def test_vector_names_the_component() -> None:
 
 @pytest.mark.parametrize("given", [None, 3, "cup", {"cup": 1}, "cups", ["cup"], [1, "cup"], b"cup", object()])
 def test_items_of_one_type(given: object) -> None:
-    with pytest.raises(SceneError, match=r"^sizes (is|is or has) .*; it must be a( sequence| list of float)\.$"):
+    with pytest.raises(SceneError, match=r"^sizes (is|has) .*; it must be a list of float\.$"):
         checks.instances("sizes", given, float, "a list of float", error=SceneError)
 
 
@@ -70,7 +70,7 @@ def test_items_are_at_most_a_number() -> None:
 
 
 def test_one_item_without_its_list_is_an_error() -> None:
-    with pytest.raises(SceneError, match=r"sizes is or has 1\.5; it must be a list of float"):
+    with pytest.raises(SceneError, match=r"sizes is 1\.5; it must be a list of float"):
         checks.instances("sizes", 1.5, float, "a list of float", error=SceneError)
     assert checks.instances("sizes", iter([1.5, 2.5]), float, "a list of float", error=SceneError) == (1.5, 2.5)
     assert checks.instances("sizes", (), float, "a list of float", error=SceneError) == ()

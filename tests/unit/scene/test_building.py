@@ -260,9 +260,32 @@ def test_three_objects_beside_each_other_do_not_tip_the_up_axis() -> None:
     assert SceneSnapshot.build(books).check() == ()
 
 
+def test_a_floor_on_edge_tips_the_up_axis_of_few_objects() -> None:
+    """Sizes and positions of a scene with z up, as they are given first: without `up_axis`."""
+    floor = SceneObject("wooden floor", pose=Pose((0, 0, -0.05)), geometry=Box((4, 4, 0.1)))
+    table = SceneObject("wooden table", pose=Pose((0, 0, 0.36)), geometry=Box((1.2, 0.7, 0.72)))
+    phone = SceneObject("smartphone", pose=Pose((0.3, 0.1, 0.724)), geometry=Box((0.07, 0.15, 0.008)))
+    (found,) = SceneSnapshot.build([floor, table, phone]).check()
+    assert found.kind == "up-axis"
+    assert "Give up_axis='z'" in str(found)
+    assert SceneSnapshot.build([floor, table, phone], up_axis="z").check() == ()
+
+
+def test_a_hinge_on_an_id_is_refused() -> None:
+    door = SceneObject("door", geometry=Box((1.0, 2.0, 0.04)))
+    with pytest.raises(SceneError, match=r"other is 'wall'.*must be the SceneObject that holds 'door'"):
+        door.hinged_on("wall", (0.0, 1.0, 0.0))  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize("more", [(), ("mirror", "shelf")])
 def test_pictures_on_a_wall_do_not_tip_the_up_axis(more: tuple[str, ...]) -> None:
     assert SceneSnapshot.build(gallery(*more)).check() == ()
+
+
+def test_an_object_in_the_air_is_felt_by_a_hand_on_it() -> None:
+    ball = SceneObject("tennis ball", pose=Pose((0, 2.0, 0)), geometry=Box((0.07, 0.07, 0.07)))
+    (found,) = SceneSnapshot.build([*ROOM, ball]).check()
+    assert str(found).endswith("Move it onto something; until then only a hand on it feels it.")
 
 
 def test_a_roof_is_no_floor() -> None:

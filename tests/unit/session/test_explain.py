@@ -312,6 +312,15 @@ def test_a_source_behind_an_unknown_material_is_not_connected() -> None:
     assert s.explain("left").reasons == ("No source touches it, directly or over other objects.",)
 
 
+def test_a_hand_on_an_unknown_object_learns_to_name_it() -> None:
+    snapshot, bundle = shelf_on_table()
+    known = {object_id: one for object_id, one in bundle.objects.items() if object_id != "table"}
+    s = HapticSession(snapshot, dataclasses.replace(bundle, objects=known), {"sample_rate_hz": RATE})
+    s.update(touches=[ON_TABLE])
+    (unknown, _) = s.explain("left").reasons
+    assert unknown.startswith("The material of 'table' is unknown. Say what it is by bundle.override(id, name=...)")
+
+
 def test_no_level_is_minus_zero() -> None:
     assert str(PathStep("mat", 0.001, -0.01)) == "mat (0.00 m, +0.0 dB)"
 

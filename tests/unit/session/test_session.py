@@ -385,7 +385,7 @@ def test_moving_an_unknown_object() -> None:
 
 
 def test_unknown_hand() -> None:
-    with pytest.raises(SessionError, match="no hand 'middle'; this session has 'left', 'right'"):
+    with pytest.raises(SessionError, match=r"no hand 'middle'; this session has 'left', 'right'\. Name .*add_hand"):
         session().update(touches=[Touch("middle", "table", (0, 0, 0))])
 
 
