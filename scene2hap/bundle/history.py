@@ -6,11 +6,16 @@ from __future__ import annotations
 
 import os
 import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Literal
 
+from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.foreign_files import discard
 from scene2hap.bundle.manifest import MANIFEST
+from scene2hap.common.warning import warn_of
+from scene2hap.errors import BundleError, reason_of
 
 MOST_STEPS = 5
 """Most steps back. An edit drops the oldest one beyond (assumed: more than that is a bundle to copy by hand)."""
@@ -58,6 +63,17 @@ def pop(bundle: Path, kind: Kind) -> None:
     for place, step in zip(_places(step_beside(bundle, kind)), steps[1:], strict=False):
         if step != place:
             step.rename(place)
+
+
+@contextmanager
+def warned_of_steps(bundle: Path) -> Iterator[None]:
+    """Report a step that the block cannot remove as a BundleWarning, since the bundle is written."""
+    try:
+        yield
+    except (OSError, BundleError) as cause:
+        warn_of(
+            f"{bundle} is written, but an earlier step beside it cannot be removed: {reason_of(cause)}", BundleWarning
+        )
 
 
 def _places(nearest: Path) -> list[Path]:

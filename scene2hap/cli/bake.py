@@ -17,10 +17,10 @@ from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
 from scene2hap.baking.corrections import bundle_with_locked
-from scene2hap.bundle import HapticBundle, read_overrides, require_replaceable, step_beside
+from scene2hap.bundle import HapticBundle, read_overrides, require_replaceable, save_stamp, step_beside, write_edited
 from scene2hap.bundle.account import write_account
 from scene2hap.cli.console import Console
-from scene2hap.cli.edit import is_other, require_steps, write_edited
+from scene2hap.cli.edit import is_other, require_steps
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
 from scene2hap.errors import BundleError, ConfigError
@@ -106,8 +106,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     target = Path(arguments.output)
     overrides = read_overrides(target)
     require_replaceable(target)  # check before the model costs money
-    before = _readable(target)
-    if before is not None:
+    is_there, before = save_stamp(target) is not None, _readable(target)
+    if is_there:
         require_steps(target)
     accounts: list[InferenceReport] = []
     with console.progress() as tell:
@@ -127,8 +127,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             overrides=overrides,
             earlier=bundle_with_locked(target, overrides),
         )
-    kept = before is not None and is_other(before, bundle)
-    folder = write_edited(bundle, target, before, console) if before is not None and kept else bundle.save(target)
+    kept = is_there and (before is None or is_other(before, bundle))
+    folder = write_edited(bundle, target, before) if kept else bundle.save(target)
     try:
         write_account(folder, {**accounts[0].as_json(), "cost_usd": accounts[0].cost_usd(price_list(config.prices))})
     except BundleError as problem:  # the bundle is whole without its account
@@ -137,9 +137,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     show_report(console, accounts[0], config.prices)
     console.say(f"wrote {folder}")
     if kept:
-        console.say(
-            f"the bundle before is in {step_beside(folder, 'before')}; `scene2hap edit {folder} undo` restores it"
-        )
+        restored = "it cannot be read" if before is None else f"`scene2hap edit {folder} undo` restores it"
+        console.say(f"the bundle before is in {step_beside(folder, 'before')}; {restored}")
     return {"bundle": str(folder), **bundle_outcome(bundle), "inference": accounts[0].as_json()}
 
 
