@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -12,7 +13,7 @@ from scene2hap.bundle import BundleWarning, HapticBundle, Override
 from scene2hap.common import checks
 from scene2hap.common.counted import counted
 from scene2hap.common.warning import warn_of
-from scene2hap.errors import BackendError, ConfigError
+from scene2hap.errors import BackendError, BundleError, ConfigError
 from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
 from scene2hap.llm.chain import Inference, infer_scene
 from scene2hap.llm.chain.questions import Slots
@@ -54,6 +55,16 @@ def overrides_of_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) 
 def bundle_with_locked(folder: Path, overrides: Mapping[str, Override]) -> HapticBundle | None:
     """Return the bundle in a folder if a person has locked loops in it, None otherwise. Raises: BundleError."""
     return HapticBundle.load(folder) if any(override.locked for override in overrides.values()) else None
+
+
+def readable_bundle(folder: Path) -> HapticBundle | None:
+    """Return the bundle in a folder, None if there is none or it cannot be read: a bake mends it."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # about values that the bake replaces
+            return HapticBundle.load(folder)
+    except BundleError:
+        return None
 
 
 async def infer_corrected(

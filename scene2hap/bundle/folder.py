@@ -72,9 +72,7 @@ def write_bundle(bundle: BundleContents, target: Path, since: Stamp | None = Non
     return target
 
 
-def write_edited(
-    bundle: BundleContents, target: Path, old: BundleContents | None, since: Stamp | None = None
-) -> Path:
+def write_edited(bundle: BundleContents, target: Path, old: BundleContents | None, since: Stamp | None = None) -> Path:
     """Write a bundle, keep the one before as a step back, and remove the steps forward. Otherwise as `write_both`."""
     write_both(bundle, target, old, "before", since)
     with warned_of_steps(target):
@@ -88,7 +86,9 @@ def write_both(
 ) -> Path:
     """Write a bundle, and the one that it replaces as a step of its history: both or none. Otherwise as `write_bundle`.
 
-    `old` is None for one that cannot be read: its folder is copied as it is, since it may hold somebody's work. Both are written before either replaces a folder, so that a full disk or an early end changes nothing. Steps share
+    `old` is None for one that cannot be read: its folder is copied as it is, since it may hold somebody's work.
+
+    Both are written before either replaces a folder, so that a full disk or an early end changes nothing. Steps share
     equal sounds and meshes by hard links with one another, and not with the bundle, whose files people edit.
     """
     kept = step_beside(target, kind)

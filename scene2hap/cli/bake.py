@@ -11,13 +11,12 @@ from __future__ import annotations
 
 import argparse
 import asyncio
-import warnings
 from pathlib import Path
 from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
-from scene2hap.baking.corrections import bundle_with_locked
-from scene2hap.bundle import HapticBundle, read_overrides, require_replaceable, save_stamp, step_beside, write_edited
+from scene2hap.baking.corrections import bundle_with_locked, readable_bundle
+from scene2hap.bundle import read_overrides, require_replaceable, save_stamp, step_beside, write_edited
 from scene2hap.bundle.account import write_account
 from scene2hap.cli.console import Console
 from scene2hap.cli.edit import is_other, require_steps
@@ -106,7 +105,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     target = Path(arguments.output)
     overrides = read_overrides(target)
     require_replaceable(target)  # check before the model costs money
-    is_there, before = save_stamp(target) is not None, _readable(target)
+    is_there, before = save_stamp(target) is not None, readable_bundle(target)
     if is_there:
         require_steps(target)
     accounts: list[InferenceReport] = []
@@ -140,16 +139,6 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         restored = "it cannot be read" if before is None else f"`scene2hap edit {folder} undo` restores it"
         console.say(f"the bundle before is in {step_beside(folder, 'before')}; {restored}")
     return {"bundle": str(folder), **bundle_outcome(bundle), "inference": accounts[0].as_json()}
-
-
-def _readable(folder: Path) -> HapticBundle | None:
-    """Return the bundle in a folder, None if there is none or it is damaged: a bake mends it."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about values that the bake replaces
-            return HapticBundle.load(folder)
-    except BundleError:
-        return None
 
 
 def bake_settings(arguments: argparse.Namespace) -> dict[str, Any]:

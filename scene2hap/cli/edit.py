@@ -59,7 +59,7 @@ from scene2hap.cli.console import Console, Tell
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import show_report
 from scene2hap.common.counted import counted
-from scene2hap.common.file_stamp import Stamp, file_stamp
+from scene2hap.common.file_stamp import file_stamp
 from scene2hap.errors import BundleChanged, BundleError, Scene2HapError
 from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.wrappers import is_remote

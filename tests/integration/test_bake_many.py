@@ -132,6 +132,25 @@ def test_overrides_stay_when_a_scene_is_baked_again(tmp_path: Path) -> None:
     assert HapticBundle.load(target).gain_db("radio") == -6.0
 
 
+@pytest.mark.parametrize("name", ["objects.json", "overrides.json"])
+def test_a_bundle_that_somebody_edited_is_kept_when_its_scene_is_baked_again(name: str, tmp_path: Path) -> None:
+    scenes = write_scenes(tmp_path / "scenes", 2)
+    folder = tmp_path / "out"
+    bake_many(scenes, folder)
+    edited = folder / "room_0.bundle" / name
+    # As by an editor; objects.json cannot be read afterwards.
+    text = '{"radio": {"gain_db": -6.5}}' if name == "overrides.json" else edited.read_text()[:-9]
+    edited.write_text(text)
+    assert bake_many(scenes, folder).count("kept") == 2
+    report = bake_many(scenes, folder, config={"seed": 1})
+    kept = folder / "room_0.bundle.before"
+    assert [any(str(kept) in one for one in scene.warnings) for scene in report.scenes] == [True, False]
+    assert "".join((kept / name).read_text().split()) == "".join(text.split())
+    assert sorted(path.name for path in folder.glob("room*")) == ["room_0.bundle", kept.name, "room_1.bundle"]
+    bake_many(scenes, folder, config={"seed": 2})  # nobody has edited anything since
+    assert sorted(path.name for path in folder.glob("room*")) == ["room_0.bundle", kept.name, "room_1.bundle"]
+
+
 def test_scenes_that_fail_do_not_stop_the_others(scenes: list[Path], tmp_path: Path) -> None:
     broken = tmp_path / "broken.glb"
     broken.write_bytes(b"glTF" + bytes(40))
@@ -467,6 +486,8 @@ def test_bundles_in_the_folder_of_a_scene_do_not_count(tmp_path: Path, output: s
     scene = tmp_path / "radio.obj"
     trimesh.creation.box((0.3, 0.2, 0.15)).export(scene)
     assert bake_many([scene], tmp_path / output).count("baked") == 1
+    bundle = tmp_path / output / "radio.bundle"
+    assert main(["edit", str(bundle), "gain", "radio", "-3", "-q"]) == 0  # which keeps a step beside the bundle
     assert bake_many([scene], tmp_path / output).count("kept") == 1
 
 

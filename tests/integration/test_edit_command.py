@@ -496,9 +496,7 @@ def unreadable(folder: Path) -> dict[str, bytes]:
     return files_of(folder)
 
 
-def test_undo_replaces_a_bundle_that_cannot_be_read_and_keeps_it(
-    fan: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_undo_replaces_a_bundle_that_cannot_be_read_and_keeps_it(fan: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["edit", str(fan), "gain", "fan", "-3", "-q"]) == 0
     edited = unreadable(fan)
     assert main(["edit", str(fan), "gain", "fan", "-9"]) == 1

@@ -242,14 +242,14 @@ class Run:
                 draft = self._draft(path)
                 if stage != "inferred" or not (draft / "bundle.json").is_file():
                     report = await self._drafted(path, made_of, await self._inferred(path, self.config.llm))
-                made = await self.pool.run(make_sounds, str(draft), str(target), self.for_workers)
+                made = await self.pool.run(make_sounds, str(draft), str(target), self.for_workers, self._written(path))
                 await asyncio.to_thread(shutil.rmtree, draft, ignore_errors=True)
             else:
-                whole = (str(path), self.options, str(target), self.for_workers, self.user_prompt)
+                whole = (str(path), self.options, str(target), self.for_workers, self.user_prompt, self._written(path))
                 made = await self.pool.run(bake_scene, *whole)
             report = _with(report, made)
             counts = {key: getattr(report, key) for key in _COUNTS}
-            write_record(self._record(path), {**made_of, "stage": "baked", **counts})
+            write_record(self._record(path), {**made_of, "stage": "baked", "bundle": made.digest, **counts})
             return report
         except Exception as error:  # a foreign executor may raise any exception
             return replace(report, error=f"{type(error).__name__}: {error}")
@@ -276,6 +276,10 @@ class Run:
         before = read_record(self._record(path))
         return made_of, before if made_of.items() <= before.items() else {}
 
+    def _written(self, path: Path) -> str:
+        """Return the digest of the bundle that the last bake of a scene wrote, "-" if that is unknown."""
+        return str(read_record(self._record(path)).get("bundle", "-"))
+
     async def _inferred(self, path: Path, backend: LLMBackend) -> _Inferred:
         """Read a scene and infer it with the model."""
         begun = time.perf_counter()
@@ -293,7 +297,7 @@ class Run:
         found, draft = inferred.found, self._draft(path)
         draft.parent.mkdir(parents=True, exist_ok=True)
         await asyncio.to_thread(HapticBundle(inferred.scene, found.scene_category, found.objects, {}).save, draft)
-        write_record(self._record(path), {**made_of, "stage": "inferred"})
+        write_record(self._record(path), {**made_of, "stage": "inferred", "bundle": self._written(path)})
         if not self.config.share_scenes:
             await asyncio.to_thread(shutil.rmtree, self._pictures(path), ignore_errors=True)
         return replace(
