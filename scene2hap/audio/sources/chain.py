@@ -30,8 +30,11 @@ class SourceWarning(UserWarning):
 
 def _clips(found: object) -> list[AudioClip]:
     """Check the result of a source. Raises: AudioError: it is no list of clips."""
-    if not isinstance(found, list | tuple) or not all(isinstance(clip, AudioClip) for clip in found):
-        raise AudioError(f"find gave {checks.described(found)}; it must give a list of AudioClip, which may be empty.")
+    is_list = isinstance(found, list | tuple)
+    wrong = [clip for clip in found if not isinstance(clip, AudioClip)] if is_list else [found]
+    if wrong:
+        given = f"a list with {checks.described(wrong[0])}" if is_list else checks.described(found)
+        raise AudioError(f"find gave {given}; it must give a list of AudioClip, which may be empty.")
     return list(found)
 
 
