@@ -498,6 +498,21 @@ def test_equal_file_names_get_separate_bundles(scenes: list[Path], tmp_path: Pat
     assert report.count("baked") == 2
 
 
+def test_a_scene_of_an_equal_name_does_not_replace_the_bundle_of_an_earlier_run(tmp_path: Path) -> None:
+    (first,), (other,) = (write_scenes(tmp_path / folder, 1) for folder in ("a", "b"))
+    other.write_text(other.read_text().replace("radio", "loudspeaker"))
+    assert bake_many([first], tmp_path / "out").count("baked") == 1
+    before = digests(tmp_path / "out")
+    (failed,) = bake_many([other], tmp_path / "out").failed
+    assert f"room_0.bundle is the bundle of {first}. Bake both scenes in one run" in failed.error
+    assert digests(tmp_path / "out") == before
+    assert bake_many([first, other], tmp_path / "out").count("baked") == 2
+    copied = tmp_path / "copied"
+    shutil.copytree(tmp_path / "a", copied / "a")
+    shutil.copytree(tmp_path / "out", copied / "out")
+    assert bake_many([copied / "a" / first.name], copied / "out").count("kept") == 1
+
+
 def test_the_command_line_shares_answers_of_scenes_only_on_request() -> None:
     parser = argparse.ArgumentParser()
     bake_many_command.add_arguments(parser)
