@@ -144,7 +144,7 @@ def test_a_bundle_that_somebody_edited_is_kept_when_its_scene_is_baked_again(nam
     assert bake_many(scenes, folder).count("kept") == 2
     report = bake_many(scenes, folder, config={"seed": 1})
     kept = folder / "room_0.bundle.before"
-    assert [any(str(kept) in one for one in scene.warnings) for scene in report.scenes] == [True, False]
+    assert [any(kept.name in one for one in scene.warnings) for scene in report.scenes] == [True, False]
     assert "".join((kept / name).read_text().split()) == "".join(text.split())
     assert sorted(path.name for path in folder.glob("room*")) == ["room_0.bundle", kept.name, "room_1.bundle"]
     bake_many(scenes, folder, config={"seed": 2})  # nobody has edited anything since

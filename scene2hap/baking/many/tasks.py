@@ -99,7 +99,7 @@ def _save(bundle: HapticBundle, target: Path, digest: str) -> None:
         return
     write_edited(bundle, target, readable_bundle(target))
     warn_of(
-        f"{target} was changed since it was baked; as it was, it is in {step_beside(target, 'before')} "
+        f"{target} was changed since it was baked; as it was, it is in {step_beside(target, 'before').name} beside it "
         f"(`scene2hap edit {target} undo`).",
         BundleWarning,
     )
