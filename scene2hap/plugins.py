@@ -9,12 +9,12 @@ and imported at first use. Another package adds an entry point in the same group
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
 from inspect import isfunction, signature
-from typing import Any
+from typing import Any, Self
 
 from scene2hap.common.calls import misfit
 from scene2hap.common.checks import described, did_you_mean, represented, shown
@@ -34,6 +34,12 @@ class Guest:
     value: str
     package: str
     problem: str
+
+    @classmethod
+    def of(cls, entry: EntryPoint, problem: str) -> Self:
+        """Return the description of an entry point."""
+        package = f"{entry.dist.name} {entry.dist.version}" if entry.dist else "an unknown package"
+        return cls(entry.group, entry.name, entry.value, package, problem)
 
 
 @dataclass(frozen=True)
@@ -57,11 +63,11 @@ class PluginGroup:
         """Return every name that `load` accepts, sorted."""
         return tuple(sorted({*self.builtins, *(guest.name for guest in self._guests())}))
 
-    def load(self, kind: str) -> object:
+    def load(self, kind: str) -> Callable[..., object]:
         """Return the class or factory registered under `kind`.
 
         Raises: UnknownPlugin: no such kind. MissingExtra: its optional dependency is not installed. ConfigError:
-        another package's entry point cannot be imported.
+        another package's entry point cannot be imported, or is neither a class nor a function.
         """
         if kind in self.builtins:
             return self._resolve(EntryPoint(kind, self.builtins[kind], self.name))
@@ -85,11 +91,11 @@ class PluginGroup:
         for entry in self._guests():
             try:
                 self._resolve(entry)
-                problem = ""
+                is_ours = entry.name in self.builtins
+                problem = "scene2hap's own kind of this name is used; give it another name" if is_ours else ""
             except Exception as cause:  # a foreign module may raise any error
                 problem = str(cause) if isinstance(cause, ConfigError) else f"{type(cause).__name__}: {cause}"
-            package = f"{entry.dist.name} {entry.dist.version}" if entry.dist else "an unknown package"
-            found.append(Guest(self.name, entry.name, entry.value, package, problem))
+            found.append(Guest.of(entry, problem))
         return tuple(found)
 
     def build(self, spec: object) -> object:
@@ -119,8 +125,6 @@ class PluginGroup:
                 f"Known: {', '.join(self.kinds())}."
             )
         factory = self.load(kind)
-        if not callable(factory):
-            raise ConfigError(f"{self.name} kind {kind!r} is {factory!r}; it must be a class or a function.")
         try:
             return factory(**settings)
         except TypeError as cause:
@@ -140,10 +144,10 @@ class PluginGroup:
     def _guests(self) -> tuple[EntryPoint, ...]:
         return tuple(entry_points(group=self.name))
 
-    def _resolve(self, entry: EntryPoint) -> object:
+    def _resolve(self, entry: EntryPoint) -> Callable[..., object]:
         try:
             import_module(entry.module)
-            return entry.load()
+            found: Callable[..., object] = entry.load()
         except ImportError as cause:
             if entry.name in self.extras:
                 extra = self.extras[entry.name]
@@ -154,6 +158,9 @@ class PluginGroup:
             raise ConfigError(f"{self.name} kind {entry.name!r} ({entry.value}) does not import: {cause}") from cause
         except AttributeError as cause:
             raise ConfigError(f"{self.name} kind {entry.name!r}: {entry.value} does not exist.") from cause
+        if not callable(found):
+            raise ConfigError(f"{self.name} kind {entry.name!r} is {found!r}; it must be a class or a function.")
+        return found
 
 
 def lacking(made: object, members: Members) -> str:

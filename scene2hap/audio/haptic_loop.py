@@ -67,7 +67,7 @@ class Sensation:
 
 
 class LevelWarning(UserWarning):
-    """A vibration is felt weaker than planned for its intensity."""
+    """A vibration is felt weaker than planned for its intensity, or not at the pitch that a person gave it."""
 
 
 def level_doubt(name: str, level_db: float, asked_level_db: float) -> str:

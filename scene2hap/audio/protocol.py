@@ -63,7 +63,10 @@ class TactileStream(Protocol):
     """A running conversion. It keeps its state between blocks, so that the block size has no effect on the result."""
 
     def process(self, block: Samples, /) -> Samples:
-        """Return the next samples (n,) float32 in [-1, 1]. Raises: AudioError: not finite, or not one channel."""
+        """Return the next samples (n,) float32 in [-1, 1]; `block` stays as it is.
+
+        Raises: AudioError: not finite, or not one channel.
+        """
         ...
 
     def finish(self) -> Samples:
@@ -100,7 +103,10 @@ def opened_stream(converter: TactileConverter, sample_rate_hz: int, context: Con
 
 
 def one_channel(converter: TactileConverter, block: Samples) -> Samples:
-    """Return a block from a converter's stream as float32 (n,). Raises: AudioError: it has another shape or type."""
+    """Return a block from a converter's stream as float32 (n,).
+
+    Raises: AudioError: it has another shape or type, or a sample that is not finite.
+    """
     try:
         found: Samples | None = np.asarray(block, dtype=np.float32)
     except (TypeError, ValueError):
@@ -109,6 +115,8 @@ def one_channel(converter: TactileConverter, block: Samples) -> Samples:
         raise AudioError(
             f"the stream of {type(converter).__name__} gave {checks.described(block)}; it must give samples (n,)."
         )
+    if not np.isfinite(found).all():
+        raise AudioError(f"the stream of {type(converter).__name__} gave a sample that is not finite.")
     return found
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -12,7 +13,7 @@ from scene2hap.bundle import BundleWarning, HapticBundle, Override, read_bundle
 from scene2hap.common import checks
 from scene2hap.common.counted import counted
 from scene2hap.common.warning import warn_of
-from scene2hap.errors import BackendError, ConfigError
+from scene2hap.errors import BackendError, BundleError, ConfigError
 from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
 from scene2hap.llm.chain import Inference, infer_scene
 from scene2hap.llm.chain.questions import Slots
@@ -61,6 +62,16 @@ def bundle_with_locked(folder: Path, overrides: Mapping[str, Override]) -> Hapti
     if not any(override.locked for override in overrides.values()):
         return None
     return HapticBundle(**vars(read_bundle(folder, overrides={})))
+
+
+def readable_bundle(folder: Path) -> tuple[HapticBundle | None, str]:
+    """Return the bundle in a folder, or None and why there is none that can be read: a bake mends it."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # about values that the bake replaces
+            return HapticBundle.load(folder), ""
+    except BundleError as cause:
+        return None, str(cause)
 
 
 async def infer_corrected(

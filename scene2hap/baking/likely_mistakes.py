@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
-from scene2hap.audio.haptic_loop import HapticLoop, LevelWarning, level_doubt
+from scene2hap.audio.distinctness import FREQUENCY_WEBER
+from scene2hap.audio.haptic_loop import HapticLoop, LevelWarning, Sensation, level_doubt
+from scene2hap.audio.threshold import NOTICED_DB
 from scene2hap.baking.sound import Sounds
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.bundle.checking import vain_corrections
@@ -55,14 +58,39 @@ def warn_of_vain_corrections(
 
 
 def warn_of_weak_loops(sounds: Sounds, overrides: Mapping[str, Override]) -> None:
-    """Warn of new loops that were made from a person's own sounds and miss their level. Warns: LevelWarning."""
+    """Warn of new loops that miss their level or pitch, where a person chose the sound or the pitch.
+
+    Warns: LevelWarning.
+    """
     for key, states in sounds.remade.items():
-        clip = overrides[key].clip if key in overrides else None
-        for state in states if clip is not None and not clip.is_vibration else ():
-            felt = sounds.loops[key][state].felt
-            doubt = level_doubt(f"{key}, {state},", felt.level_db, felt.asked_level_db) if felt is not None else ""
+        override = overrides.get(key, Override())
+        is_own = override.clip is not None and not override.clip.is_vibration
+        for state in states:
+            loop, name = sounds.loops[key][state], f"{key}, {state},"
+            if loop.felt is None:
+                continue
+            doubt = ""
+            if override.pitch_of(state) is not None:
+                doubt = _pitch_doubt(name, loop, loop.felt)
+            if not doubt and is_own:
+                doubt = level_doubt(name, loop.felt.level_db, loop.felt.asked_level_db)
             if doubt:
                 warn_of(doubt, LevelWarning)
+
+
+def _pitch_doubt(name: str, loop: HapticLoop, felt: Sensation) -> str:
+    """Return the sentence that says how a loop misses its pitch; empty if a hand would notice no difference."""
+    missing_db = felt.asked_level_db - felt.level_db
+    asked_hz, reached_hz = felt.target_hz, loop.frequency_tactile_hz
+    is_elsewhere = asked_hz is not None and abs(math.log(reached_hz / asked_hz)) > math.log1p(FREQUENCY_WEBER)
+    misses = [f"most at {reached_hz:.0f} Hz"] if is_elsewhere else []
+    misses += [f"{missing_db:.0f} dB weaker than planned"] if missing_db > NOTICED_DB else []
+    if asked_hz is None or not misses:
+        return ""
+    return (
+        f"{name} has its pitch at {asked_hz:.0f} Hz, but is felt {' and '.join(misses)}. Give a pitch at which the "
+        "actuator is stronger, a smaller intensity, or a steadier sound."
+    )
 
 
 def all_have_fingerprints(loops: Mapping[str, Mapping[str, HapticLoop]]) -> bool:

@@ -197,8 +197,8 @@ def rebake(
         "converter", "actuator", "intensity", "plan" (the source's place among the others), "new", or
         "no fingerprint". `progress` receives the same.
     Raises: as `bake`; UnknownObject. ConfigError: the bundle's converter was given ready made; give it again.
-    Warns: BundleWarning: loops of an older bundle, which have no fingerprint, stay unchanged. LevelWarning: a loop from
-    your own sound is felt more than 3 dB weaker than planned.
+    Warns: BundleWarning: loops of an older bundle, which have no fingerprint, stay unchanged. LevelWarning: a loop
+    from your own sound, or of your own pitch, is felt more than 3 dB weaker than planned, or most at another pitch.
     """
     return run_waiting(
         arebake(

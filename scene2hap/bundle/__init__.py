@@ -2,10 +2,10 @@
 
 from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.differences import Difference, differences
-from scene2hap.bundle.folder import read_bundle, read_overrides, write_both, write_keeping_folder
+from scene2hap.bundle.folder import read_bundle, read_overrides, write_both, write_edited
 from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
 from scene2hap.bundle.haptic_bundle import HapticBundle
-from scene2hap.bundle.history import pop, step_beside, steps_beside
+from scene2hap.bundle.history import pop, step_beside, steps_beside, warned_of_steps
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import Override
 from scene2hap.bundle.sounds import file_stems
@@ -25,6 +25,7 @@ __all__ = [
     "save_stamp",
     "step_beside",
     "steps_beside",
+    "warned_of_steps",
     "write_both",
-    "write_keeping_folder",
+    "write_edited",
 ]

@@ -17,6 +17,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 import stat
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -33,7 +34,7 @@ from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.corrections import FORMAT as CORRECTIONS_FORMAT
 from scene2hap.bundle.files import inside, own_file, read_bytes, read_json
 from scene2hap.bundle.folder_replacement import recover, replaced
-from scene2hap.bundle.history import Kind, keep, push, step_beside, steps_beside
+from scene2hap.bundle.history import Kind, pop, push, step_beside, steps_beside, warned_of_steps
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.manifest import FORMAT, MANIFEST, VERSION, read_manifest, require_folder
 from scene2hap.bundle.override import Override
@@ -71,10 +72,21 @@ def write_bundle(bundle: BundleContents, target: Path, since: Stamp | None = Non
     return target
 
 
+def write_edited(bundle: BundleContents, target: Path, old: BundleContents | None, since: Stamp | None = None) -> Path:
+    """Write a bundle, keep the one before as a step back, and remove the steps forward. Otherwise as `write_both`."""
+    write_both(bundle, target, old, "before", since)
+    with warned_of_steps(target):
+        while steps_beside(target, "after"):
+            pop(target, "after")
+    return target
+
+
 def write_both(
-    bundle: BundleContents, target: Path, old: BundleContents, kind: Kind, since: Stamp | None = None
+    bundle: BundleContents, target: Path, old: BundleContents | None, kind: Kind, since: Stamp | None = None
 ) -> Path:
     """Write a bundle, and the one that it replaces as a step of its history: both or none. Otherwise as `write_bundle`.
+
+    `old` is None for one that cannot be read: its folder is copied as it is, since it may hold somebody's work.
 
     Both are written before either replaces a folder, so that a full disk or an early end changes nothing. Steps share
     equal sounds and meshes by hard links with one another, and not with the bundle, whose files people edit.
@@ -83,23 +95,13 @@ def write_both(
     shared = [*steps_beside(target, "before"), *steps_beside(target, "after")][:1]
     try:
         with replaced(kept, retire=push) as draft:
-            _write(old, draft, *shared)
+            if old is None:
+                shutil.copytree(target, draft, symlinks=True, dirs_exist_ok=True)
+            else:
+                _write(old, draft, *shared)
             return write_bundle(bundle, target, since)
     except OSError as cause:
         raise BundleError(unwritable(kept, cause)) from cause
-
-
-def write_keeping_folder(bundle: BundleContents, target: Path) -> Path:
-    """Write a bundle over a folder that cannot be read, and keep that folder as it is, as the nearest step back.
-
-    Otherwise as `write_bundle`.
-    """
-    try:
-        with replaced(target, retire=keep) as draft:
-            _write(bundle, draft)
-    except OSError as cause:
-        raise BundleError(unwritable(target, cause)) from cause
-    return target
 
 
 def _write(bundle: BundleContents, folder: Path, like: Path | None = None) -> None:

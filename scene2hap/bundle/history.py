@@ -6,11 +6,16 @@ from __future__ import annotations
 
 import os
 import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Literal
 
+from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.foreign_files import discard
 from scene2hap.bundle.manifest import MANIFEST
+from scene2hap.common.warning import warn_of
+from scene2hap.errors import BundleError, reason_of
 
 MOST_STEPS = 5
 """Most steps back. An edit drops the oldest one beyond (assumed: more than that is a bundle to copy by hand)."""
@@ -34,27 +39,18 @@ def push(old: Path, nearest: Path) -> None:
 
     Raises: OSError, BundleError: a folder cannot be moved or removed.
     """
-    _insert(old, nearest, _places(nearest)[1:])
-
-
-def keep(old: Path, bundle: Path) -> None:
-    """Keep the folder `old`, which `bundle` has replaced, as it is: as the nearest step back. Otherwise as `push`."""
-    _insert(old, bundle, _places(step_beside(bundle, "before")))
-
-
-def _insert(old: Path, new: Path, places: list[Path]) -> None:
-    """Move the folder `old`, which `new` has replaced, to the first place, and the folders there one place on."""
     if not os.path.lexists(old / MANIFEST):  # an empty folder
-        discard(old, new)
+        discard(old, nearest)
         return
-    free = next((number for number, place in enumerate(places) if not os.path.lexists(place)), None)
+    places = _places(nearest)
+    free = next((number for number, place in enumerate(places) if number and not os.path.lexists(place)), None)
     if free is None:
-        discard(places[-1], new)
-        free = len(places) - 1
-    for number in range(free, 0, -1):
+        discard(places[-1], nearest)
+        free = MOST_STEPS - 1
+    for number in range(free, 1, -1):
         places[number - 1].rename(places[number])
-    old.rename(places[0])
-    shutil.copymode(new, places[0])
+    old.rename(places[1])
+    shutil.copymode(nearest, places[1])
 
 
 def pop(bundle: Path, kind: Kind) -> None:
@@ -67,6 +63,17 @@ def pop(bundle: Path, kind: Kind) -> None:
     for place, step in zip(_places(step_beside(bundle, kind)), steps[1:], strict=False):
         if step != place:
             step.rename(place)
+
+
+@contextmanager
+def warned_of_steps(bundle: Path) -> Iterator[None]:
+    """Report a step that the block cannot remove as a BundleWarning, since the bundle is written."""
+    try:
+        yield
+    except (OSError, BundleError) as cause:
+        warn_of(
+            f"{bundle} is written, but an earlier step beside it cannot be removed: {reason_of(cause)}", BundleWarning
+        )
 
 
 def _places(nearest: Path) -> list[Path]:

@@ -11,23 +11,15 @@ from __future__ import annotations
 
 import argparse
 import asyncio
-import warnings
 from pathlib import Path
 from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
-from scene2hap.baking.corrections import bundle_with_locked
-from scene2hap.bundle import (
-    HapticBundle,
-    read_overrides,
-    require_replaceable,
-    save_stamp,
-    step_beside,
-    write_keeping_folder,
-)
+from scene2hap.baking.corrections import bundle_with_locked, readable_bundle
+from scene2hap.bundle import read_overrides, require_replaceable, save_stamp, step_beside, write_edited
 from scene2hap.bundle.account import write_account
 from scene2hap.cli.console import Console
-from scene2hap.cli.edit import drop_steps_forward, is_other, require_steps, write_edited
+from scene2hap.cli.edit import is_other, require_steps
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
 from scene2hap.errors import BundleError, ConfigError
@@ -113,8 +105,10 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     target = Path(arguments.output)
     overrides = read_overrides(target)
     require_replaceable(target)  # check before the model costs money
-    before, unreadable = _present(target)
-    require_steps(target)
+    is_there = save_stamp(target) is not None
+    before, unreadable = readable_bundle(target)
+    if is_there:
+        require_steps(target)
     accounts: list[InferenceReport] = []
     with console.progress() as tell:
         tell("reading", arguments.scene, 0, 1)
@@ -133,14 +127,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             overrides=overrides,
             earlier=bundle_with_locked(target, overrides),
         )
-    kept = before is not None and is_other(before, bundle)
-    if before is not None and kept:
-        folder = write_edited(bundle, target, before, console)
-    elif unreadable:
-        folder = write_keeping_folder(bundle, target)
-        drop_steps_forward(folder, console)
-    else:
-        folder = bundle.save(target)
+    kept = is_there and (before is None or is_other(before, bundle))
+    folder = write_edited(bundle, target, before) if kept else bundle.save(target)
     try:
         write_account(folder, {**accounts[0].as_json(), "cost_usd": accounts[0].cost_usd(price_list(config.prices))})
     except BundleError as problem:  # the bundle is whole without its account
@@ -149,27 +137,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     show_report(console, accounts[0], config.prices)
     console.say(f"wrote {folder}")
     if kept:
-        console.say(
-            f"the bundle before is in {step_beside(folder, 'before')}; `scene2hap edit {folder} undo` restores it"
-        )
-    elif unreadable:
-        console.say(
-            f"the folder that was there could not be read: {unreadable} It is kept as it was, in "
-            f"{step_beside(folder, 'before')}"
-        )
+        restored = unreadable if before is None else f"`scene2hap edit {folder} undo` restores it"
+        console.say(f"the bundle before is in {step_beside(folder, 'before')}; {restored}")
     return {"bundle": str(folder), **bundle_outcome(bundle), "inference": accounts[0].as_json()}
-
-
-def _present(folder: Path) -> tuple[HapticBundle | None, str]:
-    """Return the bundle in a folder, None if there is none; and why it cannot be read: a bake replaces it."""
-    if save_stamp(folder) is None:
-        return None, ""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about values that the bake replaces
-            return HapticBundle.load(folder), ""
-    except BundleError as cause:
-        return None, str(cause)
 
 
 def bake_settings(arguments: argparse.Namespace) -> dict[str, Any]:

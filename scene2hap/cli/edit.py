@@ -50,15 +50,17 @@ from scene2hap.bundle import (
     save_stamp,
     step_beside,
     steps_beside,
+    warned_of_steps,
     write_both,
+    write_edited,
 )
 from scene2hap.bundle.history import MOST_STEPS, Kind
 from scene2hap.cli.console import Console, Tell
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import show_report
 from scene2hap.common.counted import counted
-from scene2hap.common.file_stamp import Stamp, file_stamp
-from scene2hap.errors import BundleChanged, BundleError, Scene2HapError, reason_of
+from scene2hap.common.file_stamp import file_stamp
+from scene2hap.errors import BundleChanged, BundleError, Scene2HapError
 from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.wrappers import is_remote
 
@@ -193,16 +195,16 @@ def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 def _edit_once(arguments: argparse.Namespace, config: BakeConfig, console: Console) -> dict[str, Any]:
     read = save_stamp(Path(arguments.bundle))
-    before = HapticBundle.load(arguments.bundle)
+    before, problem = _present(arguments)
     with console.progress() as tell:
         remaking = Remaking(arguments, config, tell)
         after = arguments.change(before, remaking)
     remade = remaking.remade
     if remaking.report is not None:
         show_report(console, remaking.report, remaking.config.prices)
-    all_changes = differences(before, after)
+    all_changes = () if before is None else differences(before, after)
     moved = _STEPS.get(arguments.verb)
-    if not remade and not is_other(before, after):
+    if before is not None and not remade and not is_other(before, after):
         if moved is not None:  # an undo or a redo that was interrupted has left this step behind
             pop(Path(arguments.bundle), moved[0])
             return _edit_once(arguments, config, console)
@@ -211,10 +213,10 @@ def _edit_once(arguments: argparse.Namespace, config: BakeConfig, console: Conso
         return {"bundle": str(arguments.bundle), "remade": remade}
     folder = Path(arguments.bundle)
     if moved is None:
-        write_edited(after, folder, before, console, since=read)
+        write_edited(after, folder, before, since=read)
     else:
         write_both(after, folder, before, moved[1], since=read)
-        with _warned_of(console, folder):
+        with warned_of_steps(folder):
             pop(folder, moved[0])
     # A table of its own shows loops, and "loops made again" the actuator.
     changes = [row for row in all_changes if row.what != "actuator" and not row.what.startswith("loop ")]
@@ -227,13 +229,25 @@ def _edit_once(arguments: argparse.Namespace, config: BakeConfig, console: Conso
             for state, why in states.items()
         ]
         console.table("loops made again", ("object", "state", "what changed"), rows)
-    if not changes and not remade:
+    if problem is not None and moved is not None:
+        console.say(f"the bundle that could not be read is in {step_beside(folder, moved[1])}: {problem}")
+    elif not changes and not remade:
         console.say(_without_values(arguments.verb, sum(row.what.startswith("loop ") for row in all_changes)))
     console.say(f"wrote {folder}")
     if moved is not None:
         n_back, n_forward = (len(steps_beside(folder, kind)) for kind in ("before", "after"))
         console.say(f"{counted(n_back, 'step')} back by undo, {counted(n_forward, 'step')} forward by redo")
     return {"bundle": str(folder), "remade": remade}
+
+
+def _present(arguments: argparse.Namespace) -> tuple[HapticBundle | None, BundleError | None]:
+    """Return the bundle as it is now. `undo` and `redo` need not read it: then it may be None, with the reason."""
+    try:
+        return HapticBundle.load(arguments.bundle), None
+    except BundleError as problem:
+        if arguments.verb not in _STEPS or save_stamp(Path(arguments.bundle)) is None:
+            raise
+        return None, problem
 
 
 def _without_values(verb: str, n_loops: int) -> str:
@@ -305,7 +319,7 @@ def _rebaked(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
     return remaking.rebake(bundle)
 
 
-def _undone(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
+def _undone(bundle: HapticBundle | None, remaking: Remaking) -> HapticBundle:
     verb, folder = remaking.arguments.verb, Path(remaking.arguments.bundle)
     kind = _STEPS[verb][0]
     steps = steps_beside(folder, kind)
@@ -324,28 +338,3 @@ def require_steps(folder: Path) -> None:
 def is_other(before: HapticBundle, after: HapticBundle) -> bool:
     """Return True if an edit or a bake has changed something, so that `undo` has something to restore."""
     return before.objects != after.objects or bool(differences(before, after)) or wishes(before) != wishes(after)
-
-
-def write_edited(
-    after: HapticBundle, folder: Path, before: HapticBundle, console: Console, since: Stamp | None = None
-) -> Path:
-    """Write a bundle, keep the one before as a step back, and remove the steps forward. Raises: as `write_both`."""
-    write_both(after, folder, before, "before", since)
-    drop_steps_forward(folder, console)
-    return folder
-
-
-def drop_steps_forward(folder: Path, console: Console) -> None:
-    """Remove the steps that `redo` would restore. A step that cannot be removed is reported as a warning."""
-    with _warned_of(console, folder):
-        while steps_beside(folder, "after"):
-            pop(folder, "after")
-
-
-@contextlib.contextmanager
-def _warned_of(console: Console, folder: Path) -> Iterator[None]:
-    """Report a step that cannot be removed as a warning, since the bundle is written."""
-    try:
-        yield
-    except (OSError, BundleError) as cause:
-        console.warn(f"{folder} is written, but an earlier step beside it cannot be removed: {reason_of(cause)}")

@@ -37,6 +37,9 @@ MAX_REDIRECTS = 3
 
 LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
 
+_HEARD_HERE: set[str] = set()
+"""Hosts and ports of this machine from which a whole reply has come: what listened once may restart."""
+
 _ANY_ZLIB_HEADER = 47
 """Window bits with which zlib reads both gzip and zlib."""
 
@@ -178,7 +181,8 @@ async def exchange(
     headers = {"accept-encoding": "identity"}
     if body is not None:
         headers["content-type"] = content_type
-    is_here = is_safe(url) and urlsplit(url).hostname in LOOPBACK
+    place = urlsplit(url).netloc if is_safe(url) else ""
+    is_here = bool(place) and urlsplit(url).hostname in LOOPBACK
     client = _client(transport, limits.timeout_s, check, is_here)
     try:
         with scrubbed(scrub):
@@ -209,6 +213,7 @@ async def exchange(
         never = never or "CERTIFICATE_VERIFY_FAILED" in str(cause)  # of ssl, whose error httpx replaces by its own
         # No network lies between: nothing listens there. A server that loads its model may listen, and answers 503.
         is_absent = is_here and isinstance(cause, httpx.ConnectError)
+        never = never or (is_absent and place not in _HEARD_HERE)
         problem = (scrub(str(cause)) or type(cause).__name__).rstrip(".")
         proxy = " It goes through the proxy of HTTP_PROXY, HTTPS_PROXY or ALL_PROXY, unless NO_PROXY names the host."
         what = (
@@ -219,8 +224,10 @@ async def exchange(
         raise BackendUnavailable(
             f"{url} cannot be reached: {problem}. {what}"
             f"{proxy if transport is None and not is_here and getproxies().keys() & {'http', 'https', 'all'} else ''}",
-            retryable=not (never or is_absent),
+            retryable=not never,
         ) from _without_frames(cause, scrub)
+    if is_here:
+        _HEARD_HERE.add(place)
     return WebReply(url, response.status_code, content, dict(response.headers))
 
 

@@ -66,7 +66,9 @@ class Line(Protocol):
     Any thread may read `underruns` and `latency_s` (None if unknown) for `stats`. Two attributes are optional, and are
     read after `connect`. `remark` is a sentence on the present connection, which the message of the event "connected"
     includes. `silent_after_s` is the time without samples after which the device is silent [s]; samples after it fade
-    in. Without it the line fades in by itself.
+    in. Without it the line fades in by itself. An optional method `check_format(format)`, called by the sink's `open`,
+    raises a DeviceError for a format that the device can never play, such as more hands than a frame holds: an error
+    of `connect` is tried again for ever.
     """
 
     @property
@@ -129,9 +131,12 @@ class LiveSink:
     def open(self, format: SinkFormat) -> None:
         """Prepare the sink and reset the counters. `start` connects to the device, which may be missing.
 
-        Raises: DeviceError: another sink of this program plays on it.
+        Raises: DeviceError: another sink of this program plays on it, or it can never play this format.
         """
         self.stop()
+        check_format: Callable[[SinkFormat], object] | None = getattr(self._line, "check_format", None)
+        if check_format is not None:
+            check_format(format)
         if self._key is not None:
             refusal = f"another sink plays on the {self._name} already. Close it first, or use a TeeSink."
             claim(self._key, self, refusal)

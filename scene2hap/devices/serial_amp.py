@@ -96,12 +96,15 @@ class SerialLine:
         self._target_frames = 0
         self._rate_hz = self._channels = 0
 
-    def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
-        """Open the port and send HELLO, which has a byte for the number of channels, until the device answers."""
+    def check_format(self, format: SinkFormat) -> None:
+        """Raises: DeviceError: HELLO, which has a byte for the number of channels, cannot tell it."""
         if len(format.channels) > MOST_CHANNELS:
             raise DeviceError(
                 f"{self._name} takes at most {MOST_CHANNELS} channels; the session has {len(format.channels)} hands."
             )
+
+    def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
+        """Open the port and send HELLO until the device answers."""
         self._port = SerialPort(self._name, self._baud_rate)
         self._parser = FrameParser()
         self._in_flight.clear()

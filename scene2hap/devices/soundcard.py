@@ -102,11 +102,6 @@ class SoundCardSink(LiveSink):
         name = "the default sound card" if device is None else f"sound card {device!r}"
         super().__init__(self._card_line, name, on_event=on_event)
 
-    def open(self, format: SinkFormat) -> None:
-        """Prepare the sink. Raises: ConfigError: a hand without a channel."""
-        self._card_line.columns(format)
-        super().open(format)
-
     @property
     def stats(self) -> SoundCardStats:
         """Counters since `open`."""
@@ -151,6 +146,10 @@ class _CardLine:
         """Share of its time that the callback needs [-]."""
         stream = self._stream
         return float(stream.cpu_load) if stream is not None else 0.0
+
+    def check_format(self, format: SinkFormat) -> None:
+        """Raises: ConfigError: a hand has no channel."""
+        self.columns(format)
 
     def columns(self, format: SinkFormat) -> list[int]:
         """Return the device's channel for each of the format's, from 0. Raises: ConfigError: a hand has none."""

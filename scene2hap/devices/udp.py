@@ -33,6 +33,7 @@ LATEST_S = 0.05
 """Time after which a receiver has gone silent [s]. What is later is left out: a backlog would overflow the receiver's
 buffer, or delay it from then on."""
 
+_RATE = struct.Struct("<I")
 _SAMPLES = {"int16": SampleFormat.INT16, "float32": SampleFormat.FLOAT32}
 
 
@@ -104,22 +105,29 @@ class PcmLine:
         """Number of datagrams that the system did not queue, and of times that one came too late for the receiver."""
         return self._datagrams.not_sent + self._pace.n_pauses
 
-    def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
-        """Announce the stream. Raises: DeviceError: more hands, or longer names, than a datagram holds."""
-        rate, names = struct.pack("<I", self._rate_hz), "\n".join(format.channels).encode()
-        most = MAX_PAYLOAD - len(rate)
+    def check_format(self, format: SinkFormat) -> None:
+        """Raises: DeviceError: more hands, or longer names, than a datagram holds."""
+        names, most = self._names(format), MAX_PAYLOAD - _RATE.size
         if len(format.channels) > MOST_CHANNELS or len(names) > most:
             raise DeviceError(
                 f"a datagram holds at most {MOST_CHANNELS} hands, and {most} bytes of their names; the session has "
                 f'{len(format.channels)} hands, with {len(names)} bytes. Use fewer, or content="osc".'
             )
-        self._announcement = to_datagram(message(FrameType.STREAM, rate + names))
+
+    def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
+        """Announce the stream."""
+        stream = _RATE.pack(self._rate_hz) + self._names(format)
+        self._announcement = to_datagram(message(FrameType.STREAM, stream))
         self._block_frames = min(self._wish, MAX_PAYLOAD // (len(format.channels) * self._samples.dtype.itemsize))
         self._datagrams.connect(self._announcement, carry_on)
         self._announced_s = time.monotonic()
         self.latency_s = self._block_frames / self._rate_hz
         self._pace.restart(time.monotonic())
         return self._rate_hz
+
+    @staticmethod
+    def _names(format: SinkFormat) -> bytes:
+        return "\n".join(format.channels).encode()
 
     def wanted(self, timeout_s: float) -> int:
         """Return the frames of one block whenever one is due."""

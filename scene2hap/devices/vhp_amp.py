@@ -62,12 +62,15 @@ class VhpLine:
         self._heard = b""
         self._requested_s = self._kicked_s = 0.0
 
-    def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
-        """Open the port, switch amplifiers on, and wait for a request of the board."""
+    def check_format(self, format: SinkFormat) -> None:
+        """Raises: DeviceError: more hands than a block has channels."""
         if len(format.channels) > vhp.CHANNELS:
             raise DeviceError(
                 f"{self._name} has {vhp.CHANNELS} channels; the session has {len(format.channels)} hands."
             )
+
+    def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
+        """Open the port, switch amplifiers on, and wait for a request of the board."""
         self._port = SerialPort(self._name, BAUD_RATE)
         self._heard = b""
         if not self._slim:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common import checks
 from scene2hap.common.plots import add_legend, new_figure, plain, set_title
-from scene2hap.common.text_files import draft_of
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.points import as_points
@@ -36,14 +33,12 @@ def plot_field(
     band: int = 0,
     touch_m: ArrayLike | None = None,
     title: str = "",
-    path: str | os.PathLike[str] | None = None,
 ) -> Figure:
     """Draw the attenuation over a plate as a map in dB, within its outline, with contacts of the source and a touch.
 
     Parameters: field : prepared from `network`, by any model; object_id : a plate of the network; source_id : one of
-    the field's sources, by default the first; band : index of the field's band; touch_m : (3,) or (n, 3) [m], world;
-    path : file to write as well, in the format of its suffix, such as .png.
-    Returns: a matplotlib Figure.
+    the field's sources, by default the first; band : index of the field's band; touch_m : (3,) or (n, 3) [m], world.
+    Returns: a matplotlib Figure, made without pyplot.
     Raises: MissingExtra: matplotlib is not installed. ModelDomainError: no plate of that id, no such source or
     band, or a field without sources.
     """
@@ -78,9 +73,6 @@ def plot_field(
     axes.set(xlabel="length [m]", ylabel="width [m]")
     set_title(axes, plain(title, 120) if title else f"{plain(source)} on {plain(object_id)}")
     add_legend(axes, marks, [f"{plain(source)} rests here", "touch"][: len(marks)], loc="upper right")
-    if path is not None:
-        with draft_of(Path(path)) as draft:
-            figure.savefig(draft)
     return figure
 
 

@@ -49,7 +49,8 @@ def check_actuator_sink(
                 sink.pull(n_frames)  # type: ignore[attr-defined]  # a sink without a clock has this method
     finally:
         sink.stop()
-    assert tone.n_frames, f"{name} has requested no frames within {within_s} s of start"
+    assert tone.n_frames or tone.wrong, f"{name} has requested no frames within {within_s} s of start"
+    assert not tone.wrong, f"{name} requested {tone.wrong[0]!r} frames; it must be a whole number from 0"
     assert not tone.has_overlapped, f"{name} requested frames while it was being given some"
     taken = tone.n_frames
     time.sleep(0.05)
@@ -81,13 +82,17 @@ def _stats(sink: ActuatorSink) -> SinkStats:
 
 
 class _Tone:
-    """A quiet tone on all channels, which detects two concurrent requests."""
+    """A quiet tone on all channels, which detects two concurrent requests, and numbers that a session refuses."""
 
     def __init__(self, sample_rate_hz: int, n_channels: int) -> None:
         self.n_frames, self.has_overlapped = 0, False
+        self.wrong: list[object] = []
         self._rate, self._n_channels, self._busy = sample_rate_hz, n_channels, threading.Lock()
 
     def __call__(self, n_frames: int) -> Block:
+        if n_frames < 0 or n_frames != int(n_frames):
+            self.wrong.append(n_frames)
+            n_frames = max(int(n_frames), 0)
         if not self._busy.acquire(blocking=False):
             self.has_overlapped = True
             self._busy.acquire()

@@ -100,10 +100,13 @@ def _felt(
 ) -> Samples:
     """Return all samples of a stream, after checking length and range."""
     name, stream = type(converter).__name__, opened_stream(converter, rate_hz, context)
-    parts = [one_channel(converter, stream.process(block)) for block in np.split(x, list(cuts))]
+    parts = []
+    for block in np.split(x, list(cuts)):
+        given = block.copy()
+        parts.append(one_channel(converter, stream.process(given)).copy())
+        assert np.array_equal(given, block), f"{name} changes the block that it is given"
     felt = np.concatenate([*parts, one_channel(converter, stream.finish())])
     assert len(felt) == len(x), f"{name} makes {len(felt)} samples of {len(x)}, counting finish()"
-    assert np.isfinite(felt).all(), f"{name} makes a sample that is not finite"
     most = np.abs(felt).max(initial=0.0)
     assert most <= 1.0, f"{name} makes a sample of {most:.3g}; full scale is 1"
     return felt

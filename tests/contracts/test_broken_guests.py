@@ -228,6 +228,24 @@ class Once(MemorySink):
         assert self.n_stops < 2, "Once was stopped twice"
 
 
+def requesting(n_frames: float) -> type[MemorySink]:
+    """A sink that requests this many frames."""
+
+    class Requesting(MemorySink):
+        def start(self, fill: Any) -> None:
+            self.n_requested, self._ask = 0, fill
+
+        def pull(self, _: int) -> Any:
+            self._ask(n_frames)
+            self.n_requested += 1
+
+        @property
+        def stats(self) -> SinkStats:
+            return SinkStats(frames=getattr(self, "n_requested", 0))
+
+    return Requesting
+
+
 @pytest.mark.parametrize(
     ("make", "words"),
     [
@@ -237,6 +255,8 @@ class Once(MemorySink):
         (Uncounted, "Uncounted.stats has 0 frames after"),
         (Wordless, "Wordless.stats is a NoneType"),
         (Once, "Once was stopped twice"),
+        (requesting(-1), "Requesting requested -1 frames"),
+        (requesting(240.5), "Requesting requested 240.5 frames"),
     ],
 )
 def test_broken_sinks_fail_the_contract(make: Any, words: str) -> None:
@@ -271,6 +291,22 @@ class Deaf(Converter):
         return stream
 
 
+class InPlace(Converter):
+    """It halves its input in the caller's array."""
+
+    def stream(self, sample_rate_hz: int, context: Any) -> Any:
+        stream = super().stream(sample_rate_hz, context)
+        process = stream.process
+
+        def halving(block: Any) -> Any:
+            found = process(block)
+            block *= 0.5
+            return found
+
+        stream.process = halving
+        return stream
+
+
 class OneStream(Converter):
     """All its streams share one state, which is reset when a stream is opened."""
 
@@ -298,6 +334,7 @@ class OneStream(Converter):
         (Converter(lambda block: block + 0.01 * (1 - abs(block))), "of silence"),
         (Converter(lambda block: block * (1 - 0.1 * (len(block) < 100))), "blocks of other sizes give other samples"),
         (Deaf(lambda block: block), "takes a sample that is nan"),
+        (InPlace(lambda block: block), "InPlace changes the block that it is given"),
         (OneStream(lambda block: block), "OneStream: two streams at once change each other"),
     ],
 )

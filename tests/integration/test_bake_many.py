@@ -132,6 +132,25 @@ def test_overrides_stay_when_a_scene_is_baked_again(tmp_path: Path) -> None:
     assert HapticBundle.load(target).gain_db("radio") == -6.0
 
 
+@pytest.mark.parametrize("name", ["objects.json", "overrides.json"])
+def test_a_bundle_that_somebody_edited_is_kept_when_its_scene_is_baked_again(name: str, tmp_path: Path) -> None:
+    scenes = write_scenes(tmp_path / "scenes", 2)
+    folder = tmp_path / "out"
+    bake_many(scenes, folder)
+    edited = folder / "room_0.bundle" / name
+    # As by an editor; objects.json cannot be read afterwards.
+    text = '{"radio": {"gain_db": -6.5}}' if name == "overrides.json" else edited.read_text()[:-9]
+    edited.write_text(text)
+    assert bake_many(scenes, folder).count("kept") == 2
+    report = bake_many(scenes, folder, config={"seed": 1})
+    kept = folder / "room_0.bundle.before"
+    assert [any(kept.name in one for one in scene.warnings) for scene in report.scenes] == [True, False]
+    assert "".join((kept / name).read_text().split()) == "".join(text.split())
+    assert sorted(path.name for path in folder.glob("room*")) == ["room_0.bundle", kept.name, "room_1.bundle"]
+    bake_many(scenes, folder, config={"seed": 2})  # nobody has edited anything since
+    assert sorted(path.name for path in folder.glob("room*")) == ["room_0.bundle", kept.name, "room_1.bundle"]
+
+
 def test_scenes_that_fail_do_not_stop_the_others(scenes: list[Path], tmp_path: Path) -> None:
     broken = tmp_path / "broken.glb"
     broken.write_bytes(b"glTF" + bytes(40))
@@ -467,6 +486,8 @@ def test_bundles_in_the_folder_of_a_scene_do_not_count(tmp_path: Path, output: s
     scene = tmp_path / "radio.obj"
     trimesh.creation.box((0.3, 0.2, 0.15)).export(scene)
     assert bake_many([scene], tmp_path / output).count("baked") == 1
+    bundle = tmp_path / output / "radio.bundle"
+    assert main(["edit", str(bundle), "gain", "radio", "-3", "-q"]) == 0  # which keeps a step beside the bundle
     assert bake_many([scene], tmp_path / output).count("kept") == 1
 
 
@@ -475,6 +496,21 @@ def test_equal_file_names_get_separate_bundles(scenes: list[Path], tmp_path: Pat
     report = bake_many([scenes[0], others[0]], tmp_path / "out")
     assert len({one.bundle for one in report.scenes}) == 2
     assert report.count("baked") == 2
+
+
+def test_a_scene_of_an_equal_name_does_not_replace_the_bundle_of_an_earlier_run(tmp_path: Path) -> None:
+    (first,), (other,) = (write_scenes(tmp_path / folder, 1) for folder in ("a", "b"))
+    other.write_text(other.read_text().replace("radio", "loudspeaker"))
+    assert bake_many([first], tmp_path / "out").count("baked") == 1
+    before = digests(tmp_path / "out")
+    (failed,) = bake_many([other], tmp_path / "out").failed
+    assert f"room_0.bundle is the bundle of {first}. Bake both scenes in one run" in failed.error
+    assert digests(tmp_path / "out") == before
+    assert bake_many([first, other], tmp_path / "out").count("baked") == 2
+    copied = tmp_path / "copied"
+    shutil.copytree(tmp_path / "a", copied / "a")
+    shutil.copytree(tmp_path / "out", copied / "out")
+    assert bake_many([copied / "a" / first.name], copied / "out").count("kept") == 1
 
 
 def test_the_command_line_shares_answers_of_scenes_only_on_request() -> None:

@@ -66,6 +66,19 @@ def test_doctor_states_the_install_command_of_a_missing_package(monkeypatch: pyt
     assert hints["soundcard"] == 'pip install "scene2hap[soundcard]"'
 
 
+def test_doctor_names_a_group_of_plugins_that_does_not_exist(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    package = tmp_path / "guest-1.0.dist-info"
+    package.mkdir()
+    (package / "METADATA").write_text("Metadata-Version: 2.1\nName: guest\nVersion: 1.0\n")
+    (package / "entry_points.txt").write_text("[scene2hap.tactil]\nhalved = guest:Halved\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    assert main(["doctor"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "guest:Halved of guest 1.0: there is no such group; the groups are scene2hap.llm, " in said
+
+
 def test_the_sweep_visits_one_hand_after_the_other_and_is_quiet(tmp_path: Path) -> None:
     path = tmp_path / "sweep.wav"
     assert main(["doctor", "-q", "--sweep", json.dumps({"kind": "wav", "path": str(path)})]) == 0

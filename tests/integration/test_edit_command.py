@@ -520,3 +520,33 @@ def test_a_comparison_shows_sizes_and_constants(
     assert [row.what for row in rows] == ["material", "size"]
     assert "8e+09 Pa" in rows[0].other
     assert rows[1].other.endswith("0.03 m")
+
+
+def unreadable(folder: Path) -> dict[str, bytes]:
+    """Edit a bundle by hand so that it cannot be read, and return its files."""
+    (folder / "overrides.json").write_text('{"fann": {"gain_db": -6}}', encoding="utf-8")
+    return files_of(folder)
+
+
+def test_undo_replaces_a_bundle_that_cannot_be_read_and_keeps_it(fan: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["edit", str(fan), "gain", "fan", "-3", "-q"]) == 0
+    edited = unreadable(fan)
+    assert main(["edit", str(fan), "gain", "fan", "-9"]) == 1
+    assert main(["edit", str(fan), "undo"]) == 0
+    said = capsys.readouterr().out
+    assert "the bundle that could not be read is in" in said
+    assert "'fann'" in said
+    assert HapticBundle.load(fan).gain_db("fan") == 0.0
+    kept = fan.with_name("kitchen.bundle.after")
+    assert files_of(kept) == edited
+    assert main(["edit", str(fan), "redo"]) == 1
+    assert "kitchen.bundle.after" in capsys.readouterr().err
+    assert HapticBundle.load(fan).gain_db("fan") == 0.0
+
+
+def test_a_bake_keeps_a_bundle_that_cannot_be_read(fan: Path, tmp_path: Path) -> None:
+    answers = (fan / "objects.json").read_bytes().replace(b'"vibrates": true', b'"vibrates": ture')
+    (fan / "objects.json").write_bytes(answers)
+    assert main(["bake", room(tmp_path, "fan"), "-o", str(fan), "-q"]) == 0
+    assert HapticBundle.load(fan).objects["fan"].vibrates
+    assert (fan.with_name("kitchen.bundle.before") / "objects.json").read_bytes() == answers

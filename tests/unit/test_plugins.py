@@ -77,6 +77,8 @@ def test_plugins_are_listed_with_their_errors(monkeypatch: pytest.MonkeyPatch, t
         "broken": "scene2hap_no_such:Thing",
         "gone": "math:no",
         "breaks": "scene2hap_breaks:X",
+        "number": "math:pi",
+        next(iter(GROUP.builtins)): "decimal:Decimal",
     }
     guests = tuple(EntryPoint(name, value, GROUP.name) for name, value in found.items())
     monkeypatch.setattr(plugins, "entry_points", lambda group: guests)
@@ -85,6 +87,9 @@ def test_plugins_are_listed_with_their_errors(monkeypatch: pytest.MonkeyPatch, t
     assert "does not import" in problems["broken"]
     assert "math:no does not exist" in problems["gone"]
     assert problems["breaks"] == "ZeroDivisionError: division by zero"
+    assert "is 3.14159" in problems["number"]
+    assert "it must be a class or a function" in problems["number"]
+    assert "scene2hap's own kind of this name is used" in problems[next(iter(GROUP.builtins))]
 
 
 class Half:

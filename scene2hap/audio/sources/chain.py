@@ -30,9 +30,13 @@ class SourceWarning(UserWarning):
 
 def _clips(found: object) -> list[AudioClip]:
     """Check the result of a source. Raises: AudioError: it is no list of clips."""
-    if not isinstance(found, list | tuple) or not all(isinstance(clip, AudioClip) for clip in found):
-        raise AudioError(f"find gave {checks.described(found)}; it must give a list of AudioClip, which may be empty.")
-    return list(found)
+    if not isinstance(found, list | tuple):
+        given = checks.described(found)
+    elif wrong := [clip for clip in found if not isinstance(clip, AudioClip)]:
+        given = f"a list with {checks.described(wrong[0])}"
+    else:
+        return list(found)
+    raise AudioError(f"find gave {given}; it must give a list of AudioClip, which may be empty.")
 
 
 def gather(

@@ -82,10 +82,10 @@ class Pool:
                 continue
             # Python would wait for running tasks at its exit. They have begun nothing that costs money. Up to Python
             # 3.13 no public call ends workers; `terminate_workers` of 3.14 reads the same attribute.
-            workers = [] if error is None else list((pool._processes or {}).values())
-            pool.shutdown(wait=error is None, cancel_futures=True)
-            for worker in workers:
+            for worker in [] if error is None else list((pool._processes or {}).values()):
                 worker.terminate()
+            # Wait for the pool's own thread: if it closes its pipe while Python exits, that prints a traceback.
+            pool.shutdown(wait=True, cancel_futures=True)
         for close in self._close:
             close()
 

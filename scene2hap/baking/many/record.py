@@ -14,6 +14,7 @@ from typing import Any
 from scene2hap import __version__
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import converter_settings, described
+from scene2hap.bundle.manifest import MANIFEST, our_files
 from scene2hap.common.text_files import read_small_text, write_whole
 from scene2hap.errors import ConfigError, SceneError, unwritable
 from scene2hap.llm.chain.config import InferenceConfig
@@ -58,8 +59,8 @@ def scene_digest(path: Path, options: Mapping[str, Any] | None = None) -> str:
 
 
 def _is_result(path: Path) -> bool:
-    """Return True for files of a bundle or of `bake_many`, which may be written into a scene's folder."""
-    return path.name == REPORT or any(part == WORK or part.endswith(".bundle") for part in path.parts)
+    """Return True for files of a bundle, its steps, or `bake_many`, which may be written into a scene's folder."""
+    return path.name == REPORT or any(part == WORK or ".bundle." in f"{part}." for part in path.parts)
 
 
 def _of_habitat(path: Path, options: Mapping[str, Any]) -> list[Path]:
@@ -89,6 +90,17 @@ def settings_digest(config: BakeConfig, user_prompt: str, options: Mapping[str, 
         "options": dict(options),
     }
     return hashlib.sha256(json.dumps(document, sort_keys=True, default=str).encode()).hexdigest()[:32]
+
+
+def bundle_digest(folder: Path) -> str:
+    """Return a digest of the files of a bundle, "" if there is none. Raises: BundleError, OSError: unreadable."""
+    if not (folder / MANIFEST).is_file():
+        return ""
+    found = hashlib.sha256()
+    for name in sorted(our_files(folder)):
+        content = (folder / name).read_bytes() if (folder / name).is_file() else b""
+        found.update(f"{name} {len(content)} ".encode() + content)
+    return found.hexdigest()[:32]
 
 
 def read_record(path: Path) -> Record:

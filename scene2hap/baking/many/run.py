@@ -242,14 +242,14 @@ class Run:
                 draft = self._draft(path)
                 if stage != "inferred" or not (draft / "bundle.json").is_file():
                     report = await self._drafted(path, made_of, await self._inferred(path, self.config.llm))
-                made = await self.pool.run(make_sounds, str(draft), str(target), self.for_workers)
+                made = await self.pool.run(make_sounds, str(draft), str(target), self.for_workers, self._written(path))
                 await asyncio.to_thread(shutil.rmtree, draft, ignore_errors=True)
             else:
-                whole = (str(path), self.options, str(target), self.for_workers, self.user_prompt)
+                whole = (str(path), self.options, str(target), self.for_workers, self.user_prompt, self._written(path))
                 made = await self.pool.run(bake_scene, *whole)
             report = _with(report, made)
             counts = {key: getattr(report, key) for key in _COUNTS}
-            write_record(self._record(path), {**made_of, "stage": "baked", **counts})
+            self._note(path, made_of, stage="baked", bundle=made.digest, **counts)
             return report
         except Exception as error:  # a foreign executor may raise any exception
             return replace(report, error=f"{type(error).__name__}: {error}")
@@ -271,10 +271,31 @@ class Run:
         return is_whole()
 
     async def _state(self, path: Path) -> tuple[dict[str, str], Record]:
-        """Return the digests of a scene's inputs, and the record of its last bake; empty if the inputs have changed."""
+        """Return the digests of a scene's inputs, and the record of its last bake; empty if the inputs have changed.
+
+        Raises: ConfigError: the bundle of its name is that of another scene file, which an earlier run has baked.
+        """
+        place = read_record(self._record(path)).get("path")
+        other = Path(os.path.normpath(self.folder / place)) if isinstance(place, str) else path
+        if path.is_file() and other.is_file() and not path.samefile(other):
+            raise ConfigError(
+                f"{self._target(path)} is the bundle of {other}. Bake both scenes in one run, which gives them "
+                "different names, or choose another folder."
+            )
         made_of = {"scene": await asyncio.to_thread(scene_digest, path, self.options), "settings": self.settings}
         before = read_record(self._record(path))
         return made_of, before if made_of.items() <= before.items() else {}
+
+    def _note(self, path: Path, made_of: Mapping[str, str], **facts: str | int) -> None:
+        """Write the record of a scene. Raises: ConfigError: it cannot be written."""
+        place = str(path.absolute())
+        with suppress(ValueError):  # another drive, on Windows
+            place = os.path.relpath(path, self.folder)  # a project that is copied as a whole finds its own scenes
+        write_record(self._record(path), {**made_of, "path": place, **facts})
+
+    def _written(self, path: Path) -> str:
+        """Return the digest of the bundle that the last bake of a scene wrote, "-" if that is unknown."""
+        return str(read_record(self._record(path)).get("bundle", "-"))
 
     async def _inferred(self, path: Path, backend: LLMBackend) -> _Inferred:
         """Read a scene and infer it with the model."""
@@ -293,7 +314,7 @@ class Run:
         found, draft = inferred.found, self._draft(path)
         draft.parent.mkdir(parents=True, exist_ok=True)
         await asyncio.to_thread(HapticBundle(inferred.scene, found.scene_category, found.objects, {}).save, draft)
-        write_record(self._record(path), {**made_of, "stage": "inferred"})
+        self._note(path, made_of, stage="inferred", bundle=self._written(path))
         if not self.config.share_scenes:
             await asyncio.to_thread(shutil.rmtree, self._pictures(path), ignore_errors=True)
         return replace(

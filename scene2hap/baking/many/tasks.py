@@ -17,10 +17,12 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.corrections import bundle_with_locked, overrides_of_scene
+from scene2hap.baking.corrections import bundle_with_locked, overrides_of_scene, readable_bundle
+from scene2hap.baking.many.record import bundle_digest
 from scene2hap.baking.scene import bake, bake_inferred
 from scene2hap.baking.sound import N_THREADS
-from scene2hap.bundle import HapticBundle, read_overrides
+from scene2hap.bundle import BundleWarning, HapticBundle, read_overrides, step_beside, write_edited
+from scene2hap.common.warning import warn_of
 from scene2hap.haptics import is_unknown
 from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.scene.capture import capture_images, render_all
@@ -29,7 +31,7 @@ from scene2hap.scene.load import load_scene
 
 @dataclass(frozen=True)
 class Counters:
-    """Counters of a task: time [s], objects, sources, unknown objects, questions, and warnings."""
+    """Counters of a task: time [s], objects, sources, unknown objects, questions, warnings; digest of the bundle."""
 
     seconds: float
     n_objects: int
@@ -37,12 +39,19 @@ class Counters:
     n_unknown: int
     calls: int
     warnings: tuple[str, ...]
+    digest: str
 
 
 def bake_scene(
-    n_threads: int, scene: str, options: Mapping[str, Any], target: str, config: BakeConfig, user_prompt: str
+    n_threads: int,
+    scene: str,
+    options: Mapping[str, Any],
+    target: str,
+    config: BakeConfig,
+    user_prompt: str,
+    digest: str,
 ) -> Counters:
-    """Bake a scene file. Raises: as `bake`."""
+    """Bake a scene file. `digest` is that of the bundle that the last bake wrote. Raises: as `bake`."""
     with _watched(n_threads) as watch:
         snapshot = load_scene(scene, **options)
         accounts: list[InferenceReport] = []
@@ -55,8 +64,8 @@ def bake_scene(
             earlier=bundle_with_locked(Path(target), overrides),
             on_report=accounts.append,
         )
-        bundle.save(target)
-    return _counted(bundle, watch, calls=sum(accounts[0].calls.values()))
+        _save(bundle, Path(target), digest)
+    return _counted(bundle, Path(target), watch, calls=sum(accounts[0].calls.values()))
 
 
 def take_pictures(n_threads: int, scene: str, options: Mapping[str, Any], folder: str, alone: bool) -> None:
@@ -65,8 +74,8 @@ def take_pictures(n_threads: int, scene: str, options: Mapping[str, Any], folder
         render_all(capture_images(load_scene(scene, **options), config={"cache_dir": folder}, alone=alone))
 
 
-def make_sounds(n_threads: int, draft: str, target: str, config: BakeConfig) -> Counters:
-    """Make the loops of a draft, and write the bundle. Raises: AudioError, BundleError."""
+def make_sounds(n_threads: int, draft: str, target: str, config: BakeConfig, digest: str) -> Counters:
+    """Make the loops of a draft, and write the bundle; `digest` as above. Raises: AudioError, BundleError."""
     with _watched(n_threads) as watch:
         inferred = HapticBundle.load(draft)
         overrides = overrides_of_scene(read_overrides(Path(target)), inferred.snapshot)
@@ -79,13 +88,35 @@ def make_sounds(n_threads: int, draft: str, target: str, config: BakeConfig) -> 
             earlier=bundle_with_locked(Path(target), overrides),
         )
         bundle = asyncio.run(baking)
+        _save(bundle, Path(target), digest)
+    return _counted(bundle, Path(target), watch)
+
+
+def _save(bundle: HapticBundle, target: Path, digest: str) -> None:
+    """Write a bundle. One that was changed since the last bake is kept. Warns: BundleWarning: where it is."""
+    if bundle_digest(target) in ("", digest):
         bundle.save(target)
-    return _counted(bundle, watch)
+        return
+    before, _ = readable_bundle(target)
+    write_edited(bundle, target, before)
+    warn_of(
+        f"{target} was changed since it was baked; as it was, it is in {step_beside(target, 'before').name} beside it "
+        f"(`scene2hap edit {target} undo`).",
+        BundleWarning,
+    )
 
 
-def _counted(bundle: HapticBundle, watch: _Watch, calls: int = 0) -> Counters:
+def _counted(bundle: HapticBundle, target: Path, watch: _Watch, calls: int = 0) -> Counters:
     n_unknown = sum(is_unknown(haptics.object_category) for haptics in bundle.objects.values())
-    return Counters(watch.seconds, len(bundle.objects), len(bundle.loops), n_unknown, calls, tuple(watch.warnings))
+    return Counters(
+        watch.seconds,
+        len(bundle.objects),
+        len(bundle.loops),
+        n_unknown,
+        calls,
+        tuple(watch.warnings),
+        bundle_digest(target),
+    )
 
 
 @dataclass

@@ -1,9 +1,12 @@
-"""Worker pool: the death of a worker fails only its task."""
+"""Worker pool: the death of a worker fails only its task, and an interrupted run leaves nothing behind."""
 
 from __future__ import annotations
 
 import asyncio
+import contextlib
+import multiprocessing
 import os
+import threading
 import time
 from typing import Any
 
@@ -40,3 +43,22 @@ def test_only_tasks_that_kill_their_worker_fail() -> None:
             assert "died" in str(found)
         else:
             assert found is None or found >= 1, (kind, found)
+
+
+def test_an_interrupted_run_leaves_no_thread_or_process() -> None:
+    """A thread of the pool that ends while Python exits may print a traceback."""
+
+    async def interrupted() -> None:
+        with Pool("processes:2") as pool:
+            tasks = [asyncio.ensure_future(pool.run(time.sleep)) for _ in range(8)]
+            await pool.run(abs)
+            for task in tasks:
+                task.cancel()
+            raise KeyboardInterrupt
+
+    before, begun = set(threading.enumerate()), time.monotonic()
+    with contextlib.suppress(KeyboardInterrupt):
+        asyncio.run(interrupted())
+    assert not [thread.name for thread in threading.enumerate() if thread not in before]
+    assert not multiprocessing.active_children()
+    assert time.monotonic() - begun < 30.0

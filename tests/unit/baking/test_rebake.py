@@ -1,6 +1,7 @@
 """`rebake`: user corrections are kept, and objects that are not named stay unchanged."""
 
 import json
+import re
 import warnings
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,7 @@ from scene2hap import (
     materials,
     rebake,
 )
+from scene2hap.audio.haptic_loop import LevelWarning
 from scene2hap.bundle import BundleWarning
 from scene2hap.errors import BundleError, SceneError, UnknownObject
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
@@ -147,6 +149,22 @@ def test_a_corrected_strength_changes_the_level_of_a_sound_but_not_the_sound() -
     assert again.loops["radio"][state].source.samples.tolist() == first.loops["radio"][state].source.samples.tolist()
     same = rebake(edited).loops["radio"][state]
     assert again.loops["radio"][state].tactile.samples.tolist() == same.tactile.samples.tolist()
+
+
+@pytest.mark.parametrize(
+    ("pitch_hz", "told"),
+    [
+        (60.0, r"small speaker, playing, has its pitch at 60 Hz, but is felt .*\d+ dB weaker"),
+        (250.0, ""),
+    ],
+)
+def test_a_pitch_that_music_cannot_follow_brings_a_warning(pitch_hz: float, told: str) -> None:
+    room = SceneSnapshot.build([SceneObject("small speaker", geometry=Box((0.1, 0.2, 0.1)))], name="room")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        rebake(bake(room).override("small speaker", pitch_hz=pitch_hz))
+    doubts = [str(one.message) for one in caught if issubclass(one.category, LevelWarning)]
+    assert [bool(re.match(told, doubt)) for doubt in doubts] == [True] * bool(told)
 
 
 def test_user_sound_replaces_the_selected_one(bundle: HapticBundle) -> None:

@@ -13,7 +13,7 @@ from collections.abc import AsyncIterator
 import httpx
 import pytest
 
-from llm_server import KEY
+from llm_server import KEY, Scripted, serving
 from scene2hap.common import web
 from scene2hap.common.secret import Secret
 from scene2hap.common.web import WebReply
@@ -206,12 +206,23 @@ def test_a_certificate_that_is_refused_is_not_asked_again() -> None:
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "localhost"])
-def test_a_server_of_this_machine_that_does_not_listen_is_not_asked_again(host: str) -> None:
+def test_a_server_of_this_machine_that_does_not_listen_is_not_asked_again(
+    host: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(web, "_HEARD_HERE", set())  # the port may have been that of another test's server
     with socket.create_server(("127.0.0.1", 0)) as server:
         port = server.getsockname()[1]
     with pytest.raises(BackendUnavailable, match="Start the server on this machine") as caught:
         web.get(f"http://{host}:{port}/", LIMITS)
     assert not caught.value.retryable
+
+
+def test_a_server_of_this_machine_that_has_answered_may_restart() -> None:
+    with serving(pages={"/": Scripted({})}) as server:
+        assert web.get(f"{server.base_url}/", LIMITS).ok
+    with pytest.raises(BackendUnavailable, match="Start the server on this machine") as caught:
+        web.get(f"{server.base_url}/", LIMITS)
+    assert caught.value.retryable
 
 
 def test_a_server_elsewhere_that_does_not_listen_is_asked_again() -> None:

@@ -2,7 +2,6 @@
 
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -45,16 +44,6 @@ def test_the_map_is_the_field() -> None:
     np.testing.assert_allclose(touch, [0.5, 0.3])
     loudest = np.unravel_index(shown.argmax(), shown.shape)
     np.testing.assert_allclose([loudest[1] / n_x * 0.8, loudest[0] / n_y * 0.4], foot, atol=0.03)
-
-
-def test_map_is_written_to_a_file(tmp_path: Path) -> None:
-    pytest.importorskip("matplotlib", reason="matplotlib is not installed; run: pip install 'scene2hap[plots]'")
-    field = ModalPlate().prepare(NETWORK, [Excitation("phone", 150.0, 150.0, 0.2)], Bands.dominant())
-    plot_field(field, NETWORK, "top", path=tmp_path / "map.png")
-    assert [item.name for item in tmp_path.iterdir()] == ["map.png"]
-    assert (tmp_path / "map.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
-    (tmp_path / "plain").touch()
-    assert (tmp_path / "map.png").stat().st_mode == (tmp_path / "plain").stat().st_mode
 
 
 def test_a_missing_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

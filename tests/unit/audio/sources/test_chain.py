@@ -77,3 +77,8 @@ def test_chain_raises_when_no_source_has_a_clip() -> None:
         titles(Broken(BackendUnavailable("away")), Shelf())
     with pytest.raises(AudioError, match="any of 0 sources. Add the synthesizer"):
         titles()
+
+
+def test_a_list_of_something_else_than_clips_is_named() -> None:
+    with pytest.warns(SourceWarning, match="find gave a list with an? .*ndarray.*; it must give a list of AudioClip"):
+        assert titles(Shelf(np.zeros(9)), Shelf(clip("a"))) == ["a"]  # type: ignore[arg-type]  # wrong on purpose
