@@ -214,10 +214,8 @@ def test_a_report_names_corrections_of_objects_that_are_gone(tmp_path: Path) -> 
     bundle = HapticBundle.load(target).override("radio", gain_db=-6.0)
     bundle.save(target)
     left = [item for item in bundle.snapshot.objects if item.id != "radio"]
-    smaller = tmp_path / "smaller" / "room_0.json"
-    smaller.parent.mkdir()
-    smaller.write_text(replace(bundle.snapshot, objects=tuple(left)).to_json(), encoding="utf-8")
-    (report,) = bake_many([smaller], tmp_path / "out").scenes
+    scene.write_text(replace(bundle.snapshot, objects=tuple(left)).to_json(), encoding="utf-8")
+    (report,) = bake_many([scene], tmp_path / "out").scenes
     assert report.outcome == "baked", report.error
     assert any("override of 'radio' is dropped" in sentence for sentence in report.warnings), report.warnings
 
