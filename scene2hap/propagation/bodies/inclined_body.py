@@ -38,6 +38,9 @@ from scene2hap.propagation.elastic_body import (
 from scene2hap.propagation.modal.in_plane import InPlaneModes, in_plane_modes
 from scene2hap.propagation.plate import Plate
 
+_Part = tuple[NDArray[np.intp], NDArray[np.intp], Callable[[int, int], Complex]]
+"""A part of a receptance: its rows, its columns, and a function from a number of these rows and one of these columns to
+the values (n, n_f) in the row from this column on."""
 _ASIDE = 1e-6  # Component along the normal up to which a direction does not bend the plate.
 
 
@@ -143,7 +146,7 @@ class InclinedBody(SpatialBody):
         rows, columns = np.flatnonzero(moved.any(axis=1)), np.flatnonzero(pushed.any(axis=1))
         moved, pushed = moved[rows], pushed[columns]
         if not rows.size or not columns.size:
-            return rows[:0], columns, lambda at, begin: np.empty(0)
+            return rows[:0], columns, lambda at, begin: np.empty(0, dtype=np.complex128)
         if not is_among:
             terms = (moved[:, None] * pushed).reshape(-1, pushed.shape[1])
             sums = self._sums(frequencies_hz)(terms).reshape(len(rows), len(columns), -1)
@@ -160,7 +163,7 @@ class InclinedBody(SpatialBody):
     def _sums_at(self, frequencies_hz: Floats) -> OctaveSums:
         """Sums over the motions that strain the plate; see `yielding`."""
         loss = complex(1.0, self.strain_loss)
-        q = (2 * np.pi * frequencies_hz) ** 2 / loss
+        q: Complex = ((2 * np.pi * frequencies_hz) ** 2 / loss).astype(np.complex128)
         none = np.empty((0, len(frequencies_hz)), dtype=np.complex128)
         return OctaveSums(self.motions.squares[self.motions.squares != 0], none, q, 1 / loss)
 
@@ -259,6 +262,6 @@ def _bent(bending: ElasticBody, points_m: Floats, forces_m: Floats, frequencies_
     rows, places, normal = _bending(points_m)
     columns, pushes, along = (rows, places, normal) if points_m is forces_m else _bending(forces_m)
     if not rows.size or not columns.size:
-        return rows[:0], columns, lambda at, begin: np.empty(0)
+        return rows[:0], columns, lambda at, begin: np.empty(0, dtype=np.complex128)
     bent = bending.receptance(places, pushes, frequencies_hz).transpose(1, 2, 0)
     return rows, columns, lambda at, begin: (normal[at] * along[begin:])[:, None] * bent[at, begin:]
