@@ -31,6 +31,7 @@ from scene2hap.propagation.auto_level import peak_level_db
 from scene2hap.propagation.auto_rungs import Choice, Situation, body_of
 from scene2hap.propagation.bands.sampling import SPACING
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.coupling import Joint
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.substructuring import Assembly, CoupledField, assemble
 from scene2hap.propagation.domain import OutsideDomain, floored_loss, off_zero
@@ -110,7 +111,7 @@ class AutoFidelity(PhysicalModel):
     def _situation(self, scene: Assembly, object_id: str) -> Situation:
         plate, pushing = scene.plates[object_id], scene.beside[object_id]
         situation = Situation(
-            plate, floored_loss(plate, self.loss_floor), scene.top_hz, load_kg=_load_kg(scene, object_id)
+            plate, floored_loss(plate, self.loss_floor), scene.top_hz, load_kg=load_kg(scene, object_id)
         )
         mass_kg = {item.source_id: item.mass_kg for item in scene.excitations}
         if not pushing.keys() <= mass_kg.keys():
@@ -133,15 +134,22 @@ class AutoFidelity(PhysicalModel):
         return min(1.0, SPACING / min(spacing, 1.0))
 
 
-def _load_kg(scene: Assembly, object_id: str) -> float:
+def load_kg(scene: Assembly, object_id: str) -> float:
     """Mass with the inertia of the greatest forces that others exert on an object at the top frequency [kg].
 
     A rigid body that touches nothing else exerts no more than its own mass, any other no more than its contacts.
+    Only forces along the normal bend the object.
     """
     loads_kg = []
     for other, joints in scene.beside[object_id].items():
         # Not `sum`, which rounds otherwise from Python 3.12 on.
-        kg = reduce(add, (joint.stiffness_n_m / (2 * math.pi * scene.top_hz) ** 2 for joint in joints))
+        stiffnesses_n_m = [joint.stiffness_n_m * _along_normal(joint, object_id) ** 2 for joint in joints]
+        kg = reduce(add, (k / (2 * math.pi * scene.top_hz) ** 2 for k in stiffnesses_n_m))
         is_free = other in scene.rigid and len(scene.beside[other]) == 1
         loads_kg.append(min(kg, scene.rigid[other].mass_kg) if is_free else kg)
     return sum(loads_kg)
+
+
+def _along_normal(joint: Joint, object_id: str) -> float:
+    """Component of a joint's direction along the normal of one of its objects."""
+    return (joint.along_a if joint.a == object_id else joint.along_b).z

@@ -10,7 +10,7 @@ import pytest
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, ModalPlate, Plate, Pose, materials
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation import MODELS
-from scene2hap.propagation.auto import AutoFidelity
+from scene2hap.propagation.auto import AutoFidelity, load_kg
 from scene2hap.propagation.auto_level import peak_level_db
 from scene2hap.propagation.auto_rungs import FLOOR_DB, RUNGS, Situation
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
@@ -206,3 +206,17 @@ def test_poses_and_dominant_bands() -> None:
     there = MODEL.prepare(ContactNetwork(network.bodies, moved, {"top": away}), excitations, Bands.dominant())
     np.testing.assert_allclose(there.attenuation("top", [(3.9, -0.6, 0.7)]), here, rtol=1e-9)
     assert 20 * np.log10(here[0, 0, 0]) > FLOOR_DB
+
+
+def test_forces_along_the_plane_of_a_board_do_not_make_it_bend_at_lower_frequencies() -> None:
+    """A board, and one upright that is flush with it, are joined along both of their normals."""
+    board, upright = Plate(0.3, 0.2, 0.02, OAK), Plate(0.2, 1.0, 0.02, OAK)
+    poses = {"board": Pose((0.0, 0.0, 0.0)), "upright": Pose.from_euler((0.3, 0.0, 0.0), (0.0, -np.pi / 2, 0.0))}
+    joined = [Contact("board", "upright", (0.3, y, 0.0)) for y in (0.02, 0.18)]
+    standing = Contact("phone", "upright", (0.3, 0.1, 0.9), normal=(1.0, 0.0, 0.0))
+    network = ContactNetwork({"board": board, "upright": upright}, [*joined, standing], poses)
+    scene = assemble(network, [Excitation("phone", 100.0, 100.0, 0.2)], Bands((10.0, 20.0)), ContactLaw(), "ignore")
+    joints = scene.beside["board"]["upright"]
+    assert len(joints) == 4
+    along = sum(one.stiffness_n_m for one in joints) / 2  # each contact has one spring for each normal
+    assert load_kg(scene, "board") == pytest.approx(along / (2 * np.pi * 20.0) ** 2, rel=1e-9)

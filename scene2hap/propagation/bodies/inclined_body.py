@@ -17,11 +17,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common.arrays import Complex, Floats
+from scene2hap.common.byte_bounded_lru import ByteBoundedLru
+from scene2hap.propagation.bands.octaves import OctaveSums
 from scene2hap.propagation.bodies.legged_body import LeggedBody
 from scene2hap.propagation.bodies.rigid import RigidMotion
 from scene2hap.propagation.elastic_body import (
@@ -35,6 +38,9 @@ from scene2hap.propagation.elastic_body import (
 from scene2hap.propagation.modal.in_plane import InPlaneModes, in_plane_modes
 from scene2hap.propagation.plate import Plate
 
+_Part = tuple[NDArray[np.intp], NDArray[np.intp], Callable[[int, int], Complex]]
+"""A part of a receptance: its rows, its columns, and a function from a number of these rows and one of these columns to
+the values (n, n_f) in the row from this column on."""
 _ASIDE = 1e-6  # Component along the normal up to which a direction does not bend the plate.
 
 
@@ -112,20 +118,54 @@ class InclinedBody(SpatialBody):
 
     def receptance(self, points_m: Floats, forces_m: Floats, frequencies_hz: Floats) -> Complex:
         """See `ElasticBody`; points and forces are ports."""
+        is_among = points_m is forces_m
         pushed = self.motions.shapes(forces_m)
-        moved = pushed if points_m is forces_m else self.motions.shapes(points_m)
-        # One real product for all frequencies takes a third of the time of one complex product for each.
-        shapes = (moved[:, None] * pushed).reshape(-1, pushed.shape[1])
-        answer = real_times(shapes, self.yielding(frequencies_hz).T)
-        answer = answer.reshape(len(moved), len(pushed), -1).transpose(2, 0, 1)
-        if self.bending is None:
-            return answer
-        rows, places, normal = _bending(points_m)
-        columns, pushes, along = (rows, places, normal) if points_m is forces_m else _bending(forces_m)
-        if rows.size and columns.size:
-            bent = self.bending.receptance(places, pushes, frequencies_hz)
-            answer[:, rows[:, None], columns] += normal[:, None] * along * bent
-        return answer
+        moved = pushed if is_among else self.motions.shapes(points_m)
+        # Motions without strain differ only in their shapes: one number for each pair of ports.
+        loose = self.motions.squares == 0
+        static = (moved[:, loose] * self.motions.signs[loose]) @ pushed[:, loose].T
+        free = (-1 / (2 * np.pi * frequencies_hz) ** 2).astype(np.complex128)
+        parts = [self._strained(moved[:, ~loose], pushed[:, ~loose], frequencies_hz, is_among=is_among)]
+        if self.bending is not None:
+            parts.append(_bent(self.bending, points_m, forces_m, frequencies_hz))
+        answer = np.empty((len(moved), len(pushed), len(frequencies_hz)), dtype=np.complex128)
+        for i, row in enumerate(answer):  # a row at a time, which stays in the cache
+            first = i if is_among else 0  # the lower triangle is a copy of the upper one
+            np.multiply(static[i, first:, None], free, out=row[first:])
+            for rows, columns, own in parts:
+                at = int(np.searchsorted(rows, i))
+                if at < len(rows) and rows[at] == i:
+                    begin = at if is_among else 0
+                    row[columns[begin:]] += own(at, begin)
+            if is_among:
+                answer[i + 1 :, i] = row[i + 1 :]
+        return answer.transpose(2, 0, 1)
+
+    def _strained(self, moved: Floats, pushed: Floats, frequencies_hz: Floats, *, is_among: bool) -> _Part:
+        """The part of the motions that strain the plate. Ports along the normal have none."""
+        rows, columns = np.flatnonzero(moved.any(axis=1)), np.flatnonzero(pushed.any(axis=1))
+        moved, pushed = moved[rows], pushed[columns]
+        if not rows.size or not columns.size:
+            return rows[:0], columns, lambda at, begin: np.empty(0, dtype=np.complex128)
+        if not is_among:
+            terms = (moved[:, None] * pushed).reshape(-1, pushed.shape[1])
+            sums = self._sums(frequencies_hz)(terms).reshape(len(rows), len(columns), -1)
+            return rows, columns, lambda at, begin: sums[at, begin:]
+        i, j = np.triu_indices(len(rows))
+        upper = self._sums(frequencies_hz)(moved[i] * pushed[j])
+        firsts = np.searchsorted(i, np.arange(len(rows) + 1))
+        return rows, columns, lambda at, begin: upper[firsts[at] : firsts[at + 1]]
+
+    @cached_property
+    def _sums(self) -> ByteBoundedLru[OctaveSums]:
+        return ByteBoundedLru(self._sums_at, room=4)
+
+    def _sums_at(self, frequencies_hz: Floats) -> OctaveSums:
+        """Sums over the motions that strain the plate; see `yielding`."""
+        loss = complex(1.0, self.strain_loss)
+        q: Complex = ((2 * np.pi * frequencies_hz) ** 2 / loss).astype(np.complex128)
+        none = np.empty((0, len(frequencies_hz)), dtype=np.complex128)
+        return OctaveSums(self.motions.squares[self.motions.squares != 0], none, q, 1 / loss)
 
     def yielding(self, frequencies_hz: Floats) -> Complex:
         """Modal receptance of each motion (n_frequencies, n_motions) [s^2]."""
@@ -215,3 +255,13 @@ def _bending(ports: Floats) -> tuple[NDArray[np.intp], Floats, Floats]:
     """Indices of the ports with a component along the normal, their positions (n, 2) [m], and this component."""
     rows = np.flatnonzero(np.abs(ports[:, 5]) > _ASIDE)
     return rows, np.ascontiguousarray(ports[rows, :2]), ports[rows, 5]
+
+
+def _bent(bending: ElasticBody, points_m: Floats, forces_m: Floats, frequencies_hz: Floats) -> _Part:
+    """The part of a receptance in which a body bends."""
+    rows, places, normal = _bending(points_m)
+    columns, pushes, along = (rows, places, normal) if points_m is forces_m else _bending(forces_m)
+    if not rows.size or not columns.size:
+        return rows[:0], columns, lambda at, begin: np.empty(0, dtype=np.complex128)
+    bent = bending.receptance(places, pushes, frequencies_hz).transpose(1, 2, 0)
+    return rows, columns, lambda at, begin: (normal[at] * along[begin:])[:, None] * bent[at, begin:]

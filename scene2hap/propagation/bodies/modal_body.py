@@ -15,7 +15,7 @@ from scene2hap.propagation.bands.octaves import OctaveSums
 from scene2hap.propagation.bodies.infinite_body import InfiniteBody
 from scene2hap.propagation.bodies.many_joints import among, has_many, rows_at_once
 from scene2hap.propagation.bodies.split_body import SplitBody
-from scene2hap.propagation.elastic_body import AnyFloat
+from scene2hap.propagation.elastic_body import AnyFloat, mirrored
 from scene2hap.propagation.modal.modes import FINE, MARGIN, QUICK_BLOCK, Fineness, largest_block
 from scene2hap.propagation.modal.plate_terms import N_NODES, ContractedShapes, ForcedPlate, PlateTerms
 from scene2hap.propagation.plate import Plate
@@ -112,7 +112,8 @@ class ModalBody:
         return self.terms.spectrum(q) * scale
 
     def _between(self, points_m: Floats, frequencies_hz: Floats) -> Complex:
-        return self._summed(self._among_forces(points_m), frequencies_hz)
+        among = mirrored(self._sums(frequencies_hz)(self._among_forces(points_m)), len(points_m))
+        return among.transpose(2, 0, 1)
 
     def _summed(self, terms: Floats, frequencies_hz: Floats) -> Complex:
         n_points, n_forces, n_terms = terms.shape
@@ -123,8 +124,10 @@ class ModalBody:
         return self.terms.sums(*self._damped(frequencies_hz))
 
     def _symmetric(self, points_m: Floats) -> Floats:
+        """Terms of each pair of points (n (n + 1) / 2, n_terms), in the order of `mirrored`."""
         terms = self._at_forces(points_m)(points_m)
-        return (terms + terms.transpose(1, 0, 2)) / 2  # exactly symmetric, despite rounding
+        i, j = np.triu_indices(len(points_m))
+        return (terms[i, j] + terms[j, i]) / 2  # of both, although only rounding differs: points have no order
 
     def _shapes_among(self, points_m: Floats) -> tuple[Floats, Floats]:
         """Shapes of the modes at points (n, n_modes), and of the other terms among them (n, n, N_NODES)."""

@@ -24,14 +24,16 @@ class Pattern:
 
     place : (n,) position of each row in that order; begins : (n + 1,) first entry of each position; columns :
     (n_entries,) column positions of entries, in each row the diagonal first, then rising; entry : (n, n) index of the
-    entry at a row position and a column position >= row, -1 for none; n_products : multiplications of one
-    factorisation.
+    entry at a row position and a column position >= row, -1 for none; blocks : (n_blocks + 1,) first position of each
+    block of rows that have the same columns, those before the diagonal aside, and n; n_products : multiplications of
+    one factorisation.
     """
 
     place: NDArray[np.int32]
     begins: NDArray[np.int32]
     columns: NDArray[np.int32]
     entry: NDArray[np.int32]
+    blocks: NDArray[np.int32]
     n_products: int
 
 
@@ -54,7 +56,10 @@ def pattern_of(rows_of: tuple[tuple[int, ...], ...]) -> Pattern:
             columns.append(own)
     widths = np.diff(begins)
     n_products = int((widths * (widths + 1) // 2).sum())
-    return Pattern(place, np.array(begins, dtype=np.int32), np.concatenate(columns), entry, n_products)
+    # A row has all columns of the row before but that row's diagonal, and is in its block if it has no others.
+    is_next = (widths[:-1] == widths[1:] + 1) & (widths[:-1] > 1)
+    blocks = np.array([0, *np.flatnonzero(~is_next) + 1, n], dtype=np.int32)
+    return Pattern(place, np.array(begins, dtype=np.int32), np.concatenate(columns), entry, blocks, n_products)
 
 
 def merged_fronts(rows_of: tuple[tuple[int, ...], ...]) -> list[tuple[list[int], list[int]]]:
