@@ -187,7 +187,8 @@ cdef void eliminate(
     cdef const int* across
     cdef const int* own
     for k in range(n_blocks):
-        n_own, own, m = blocks[k + 1] - blocks[k], columns + begins[blocks[k]], begins[blocks[k] + 1] - begins[blocks[k]]
+        i = blocks[k]
+        n_own, own, m = blocks[k + 1] - i, columns + begins[i], begins[i + 1] - begins[i]
         upper = lower + 8 * <Py_ssize_t>m * n_own
         solved = upper + 8 * <Py_ssize_t>m * n_own
         for j in range(n_own):
@@ -226,7 +227,8 @@ cdef void substitute(
     cdef double* to
     cdef double* behind  # (m,) the entries of x at the columns of a block
     for k in range(n_blocks - 1, -1, -1):
-        n_own, own, m = blocks[k + 1] - blocks[k], columns + begins[blocks[k]], begins[blocks[k] + 1] - begins[blocks[k]]
+        i = blocks[k]
+        n_own, own, m = blocks[k + 1] - i, columns + begins[i], begins[i + 1] - begins[i]
         for column in range(n_sources):
             behind = scratch
             for p in range(n_own, m):
