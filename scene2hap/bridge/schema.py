@@ -84,8 +84,7 @@ class Cancelled(Answer):
 
 
 class Source(BaseModel):
-    """The present state of a vibrating object, the fields of `SourceInfo` but for `is_running` and
-    `progress`."""
+    """The present state of a vibrating object: `SourceInfo` without `is_running` and `progress`."""
 
     id: str
     state: str
