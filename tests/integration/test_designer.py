@@ -34,6 +34,7 @@ from scene2hap import (
     rebake,
 )
 from scene2hap.audio.files import write_wav
+from scene2hap.audio.haptic_loop import LevelWarning
 from scene2hap.baking.config import BakeConfig
 from scene2hap.bundle import BundleWarning
 from scene2hap.cli import main
@@ -124,7 +125,10 @@ def test_pitch_moves_the_felt_frequency_within_the_band(fan: Path, capsys: pytes
     spectrum = np.abs(np.fft.rfft(loop.tactile.samples))
     strongest_hz = spectrum.argmax() * loop.tactile.sample_rate_hz / len(loop.tactile.samples)
     assert strongest_hz == pytest.approx(90.0, rel=0.05)
-    with pytest.warns(BundleWarning, match="plays 130 to 230 Hz. The loop is at 130 Hz"):
+    with (
+        pytest.warns(BundleWarning, match="plays 130 to 230 Hz. The loop is at 130 Hz"),
+        pytest.warns(LevelWarning, match="has its pitch at 130 Hz, but is felt 11 dB weaker"),
+    ):
         rebaked = rebake(str(fan), {"actuator": "lra"})
     assert rebaked.loops["handheld_fan"]["on"].frequency_tactile_hz == pytest.approx(130.0, rel=0.05)
     with pytest.warns(BundleWarning, match="Lowpass does not move sources"):
