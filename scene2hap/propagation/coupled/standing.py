@@ -56,7 +56,9 @@ def standings(
     for pair, contacts in pairs.items():
         if pair not in found:
             one = _lighter(pair, len(contacts), masses_kg, stated, law)
-            found[pair] = one._replace(hangs=network.up_axis is not None and _hangs_beside(pair, below, masses_kg))
+            found[pair] = one._replace(
+                hangs=network.up_axis is not None and _hangs_beside(network, pair, below, masses_kg)
+            )
     return found
 
 
@@ -136,9 +138,13 @@ def _hangs(
     )
 
 
-def _hangs_beside(pair: Pair, below: Mapping[str, object], masses_kg: Mapping[str, float]) -> bool:
+def _hangs_beside(
+    network: ContactNetwork, pair: Pair, below: Mapping[str, object], masses_kg: Mapping[str, float]
+) -> bool:
+    """Whether the lighter object of a pair has nothing below it. One without a body, such as what strikes another, is
+    not held at its contact."""
     least_kg = min(masses_kg[key] for key in pair)
-    return any(masses_kg[key] == least_kg and not below.get(key) for key in pair)
+    return any(masses_kg[key] == least_kg and key in network.bodies and not below.get(key) for key in pair)
 
 
 def _from_above(

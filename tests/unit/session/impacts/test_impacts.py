@@ -184,6 +184,24 @@ def test_prepared_impact_equals_the_field_of_the_impact_alone() -> None:
         assert (found[1] > 0.999).all()  # this hand touches the struck point
 
 
+@pytest.mark.filterwarnings("ignore:of 2 objects none vibrates")
+def test_a_strike_on_an_upright_board_pushes_along_its_normal_alone() -> None:
+    """What strikes a board aside stands on nothing, but the board does not carry its weight."""
+    floor = SceneObject("ceramic floor", pose=Pose((0.0, -0.05, 0.0)), geometry=Box((2.0, 0.1, 2.0)))
+    board = SceneObject("oak board", pose=Pose((0.0, 0.6, 0.0)), geometry=Box((1.0, 1.2, 0.03)))
+    model = ModalPlate()
+    made = HapticSession(bake(SceneSnapshot.build([floor, board])), config={"propagation": model})
+    struck, hand = (0.2, 0.7, 0.015), [("oak board", (-0.2, 0.4, 0.015))]
+    made.update(touches=[Touch("left", *hand[0])])
+    assert made.wait_prepared(60.0)
+    assert made._impacts._ahead is not None
+    f = np.array([60.0, 120.0, 240.0])
+    expected = struck_later(model, made._state, "oak board", struck, [hand], f)()
+    answer = made._impacts._ahead.answer("oak board", struck, {"left": hand}, f)
+    assert answer is not None
+    assert np.abs(20 * np.log10(answer.gains / expected)).max() < 0.5
+
+
 def test_last_prepared_impact_is_used_until_a_new_one_is_ready() -> None:
     made = session(propagation="modal_plate")
     made.update(touches=touches())
