@@ -275,7 +275,8 @@ class Run:
 
         Raises: ConfigError: the bundle of its name is that of another scene file, which an earlier run has baked.
         """
-        place = read_record(self._record(path)).get("path")
+        before = read_record(self._record(path))
+        place = before.get("path")
         other = Path(os.path.normpath(self.folder / place)) if isinstance(place, str) else path
         if path.is_file() and other.is_file() and not path.samefile(other):
             raise ConfigError(
@@ -283,7 +284,6 @@ class Run:
                 "different names, or choose another folder."
             )
         made_of = {"scene": await asyncio.to_thread(scene_digest, path, self.options), "settings": self.settings}
-        before = read_record(self._record(path))
         return made_of, before if made_of.items() <= before.items() else {}
 
     def _note(self, path: Path, made_of: Mapping[str, str], **facts: str | int) -> None:

@@ -126,7 +126,7 @@ def test_cycle_goes_on_in_a_restored_session() -> None:
 
 
 def test_progress_of_a_state_without_a_cycle_is_left_out() -> None:
-    """The bundle may have been baked anew since the game was saved."""
+    """The bundle may have been baked again since the game was saved."""
     session = machine()
     session.set_source("phone", on=True, progress=[None, None, True, 100.0])
     session.update(touches=TOUCHES)
