@@ -20,7 +20,7 @@ import numpy as np
 
 from scene2hap import load_scene
 from scene2hap.scene.capture import capture_images, render_all
-from scene2hap.scene.capture.lazy_pictures import Studio
+from scene2hap.scene.capture.lazy_pictures import LazyPictures
 from scene2hap.scene.capture.protocol import Selection
 from scene2hap.scene.capture.shot_rendering import Photographer
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -56,9 +56,9 @@ def measure(scene: SceneSnapshot, options: argparse.Namespace) -> None:
     stats = render_all(captured, options.workers)
     seconds = time.perf_counter() - begin
     assert captured.images is not None
-    assert isinstance(captured.images.source, Studio)
-    studio = captured.images.source
-    unique, classes = set(studio.copies.isolated.values()), set(studio.copies.context.values())
+    assert isinstance(captured.images.source, LazyPictures)
+    pictures = captured.images.source
+    unique, classes = set(pictures.copies.isolated.values()), set(pictures.copies.context.values())
     print(f"n = {stats.rendered} pictures, u = {len(unique)}, c = {len(classes)}, {stats.from_memory} from memory")
     usage = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
     cpu_s = sum(one.ru_utime + one.ru_stime for one in usage) - before_s
@@ -70,16 +70,18 @@ def measure(scene: SceneSnapshot, options: argparse.Namespace) -> None:
     render_all(capture_images(scene, size_px=options.size, renderer=options.renderer, config=settings), 0)
     print(f"again, from memory: {time.perf_counter() - begin:.2f} s")
     if options.visible:
-        show_visibility(studio, sorted(classes))
+        show_visibility(pictures, sorted(classes))
 
 
-def show_visibility(studio: Studio, subjects: list[str]) -> None:
+def show_visibility(pictures: LazyPictures, subjects: list[str]) -> None:
     """Print the share of each silhouette in isolated images that is visible in context images."""
-    config = studio.config.model_copy(update={"size_px": 192})
-    photographer = Photographer(studio.stage, studio.factory(studio.stage, False), config, studio.below)
+    config = pictures.config.model_copy(update={"size_px": 192})
+    photographer = Photographer(
+        pictures.render_scene, pictures.factory(pictures.render_scene, False), config, pictures.below
+    )
     good_views = []
     for subject in subjects:
-        number = studio.stage.index[subject]
+        number = pictures.render_scene.index[subject]
         shares = []
         for shot in config.object_shots("context", subject):
             camera, selection = photographer.aim(shot)

@@ -26,7 +26,7 @@ _ABSENT = object()
 
 
 @dataclass(frozen=True)
-class Guest:
+class InstalledPlugin:
     """An implementation from another package. `problem` is the error when it was loaded, empty if there was none."""
 
     group: str
@@ -48,7 +48,7 @@ class PluginGroup:
 
     `name` is the entry-point group (``"scene2hap.llm"``); `builtins` maps a kind to ``"module:attribute"``; `extras`
     maps a kind to the extra that installs its optional dependency; `members` are the required members of its protocol;
-    `wraps_functions` names the class that makes an implementation of a plain function, if there is one; `asked_for`
+    `wraps_functions` names the class that makes an implementation of a plain function, if there is one; `synonyms`
     maps other names by which people ask for kinds to these kinds, for suggestions alone.
     """
 
@@ -57,11 +57,11 @@ class PluginGroup:
     extras: Mapping[str, str]
     members: Members = field(default_factory=dict)
     wraps_functions: str = ""
-    asked_for: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    synonyms: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def kinds(self) -> tuple[str, ...]:
         """Return every name that `load` accepts, sorted."""
-        return tuple(sorted({*self.builtins, *(guest.name for guest in self._guests())}))
+        return tuple(sorted({*self.builtins, *(plugin.name for plugin in self._entries())}))
 
     def load(self, kind: str) -> Callable[..., object]:
         """Return the class or factory registered under `kind`.
@@ -71,9 +71,9 @@ class PluginGroup:
         """
         if kind in self.builtins:
             return self._resolve(EntryPoint(kind, self.builtins[kind], self.name))
-        for guest in self._guests():
-            if guest.name == kind:
-                return self._resolve(guest)
+        for plugin in self._entries():
+            if plugin.name == kind:
+                return self._resolve(plugin)
         near = self._near(kind)
         raise UnknownPlugin(
             f"{self.name} has no kind {represented(kind)}. {near}{' ' if near else ''}"
@@ -82,20 +82,20 @@ class PluginGroup:
 
     def _near(self, kind: str) -> str:
         """Return a sentence with the kinds that a wrong name may mean; "" if there are none."""
-        meant = self.asked_for.get(kind.casefold().replace(" ", "").replace("-", "").replace("_", ""))
+        meant = self.synonyms.get(kind.casefold().replace(" ", "").replace("-", "").replace("_", ""))
         return did_you_mean(kind, self.kinds()) if meant is None else f"Did you mean {' or '.join(map(repr, meant))}?"
 
-    def guests(self) -> tuple[Guest, ...]:
+    def installed(self) -> tuple[InstalledPlugin, ...]:
         """Return the plug-ins of other packages. Each is loaded, to find those with errors."""
         found = []
-        for entry in self._guests():
+        for entry in self._entries():
             try:
                 self._resolve(entry)
                 is_ours = entry.name in self.builtins
                 problem = "scene2hap's own kind of this name is used; give it another name" if is_ours else ""
             except Exception as cause:  # a foreign module may raise any error
                 problem = str(cause) if isinstance(cause, ConfigError) else f"{type(cause).__name__}: {cause}"
-            found.append(Guest.of(entry, problem))
+            found.append(InstalledPlugin.of(entry, problem))
         return tuple(found)
 
     def build(self, spec: object) -> object:
@@ -141,7 +141,7 @@ class PluginGroup:
             )
         return given
 
-    def _guests(self) -> tuple[EntryPoint, ...]:
+    def _entries(self) -> tuple[EntryPoint, ...]:
         return tuple(entry_points(group=self.name))
 
     def _resolve(self, entry: EntryPoint) -> Callable[..., object]:

@@ -30,7 +30,7 @@ from scene2hap.devices import SINKS, loopback_latency
 from scene2hap.devices.protocol import ActuatorSink, Block, SinkEvent, SinkFormat, has_clock
 from scene2hap.errors import ConfigError, DeviceError, MissingExtra
 from scene2hap.haptics import ActuatorProfile
-from scene2hap.plugins import Guest
+from scene2hap.plugins import InstalledPlugin
 from scene2hap.render.safety import SafetyLayer
 from scene2hap.session.mix.output import LONGEST_FADE_OUT_S
 
@@ -74,7 +74,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         "system": platform.platform(),
         "kernels": "compiled" if are_in_use() else "plain",
         "extras": extras(),
-        "plugins": guests(),
+        "plugins": installed(),
         "sound_cards": sound_cards(),
         "serial_ports": serial_ports(),
     }
@@ -119,15 +119,15 @@ def extras() -> list[dict[str, str]]:
     return rows
 
 
-def guests() -> list[dict[str, str]]:
+def installed() -> list[dict[str, str]]:
     """Return each plug-in of other packages: group, kind, package, and the error if it cannot be loaded."""
     names = [group.name for group in GROUPS.values()]
-    found = [guest for group in GROUPS.values() for guest in group.guests()]
+    found = [plugin for group in GROUPS.values() for plugin in group.installed()]
     for group in sorted(metadata.entry_points().groups):
         if group.startswith("scene2hap.") and group not in names:
             problem = f"there is no such group; the groups are {', '.join(names)}"
-            found += [Guest.of(entry, problem) for entry in metadata.entry_points(group=group)]
-    return [asdict(guest) for guest in found]
+            found += [InstalledPlugin.of(entry, problem) for entry in metadata.entry_points(group=group)]
+    return [asdict(plugin) for plugin in found]
 
 
 def sound_cards() -> dict[str, Any]:

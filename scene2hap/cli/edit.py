@@ -69,7 +69,7 @@ POLL_S = 0.05
 
 
 @dataclass
-class Remaking:
+class Rebake:
     """Bake parts of a bundle again, with the settings in the arguments, and note what was done.
 
     `remade` has the loops that were made, with the reasons. `report` is the inference by a model, None without one.
@@ -103,7 +103,7 @@ class Remaking:
 _STEPS: dict[str, tuple[Kind, Kind]] = {"undo": ("before", "after"), "redo": ("after", "before")}
 """Verbs that load a step of the history: from where, and to where the present bundle goes."""
 
-Changed = Callable[[HapticBundle, Remaking], HapticBundle]
+Changed = Callable[[HapticBundle, Rebake], HapticBundle]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -197,7 +197,7 @@ def _edit_once(arguments: argparse.Namespace, config: BakeConfig, console: Conso
     read = save_stamp(Path(arguments.bundle))
     before, problem = _present(arguments)
     with console.progress() as tell:
-        remaking = Remaking(arguments, config, tell)
+        remaking = Rebake(arguments, config, tell)
         after = arguments.change(before, remaking)
     remade = remaking.remade
     if remaking.report is not None:
@@ -299,7 +299,7 @@ def interrupted() -> Iterator[threading.Event]:
         signal.signal(signal.SIGINT, before)
 
 
-def _overridden(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
+def _overridden(bundle: HapticBundle, remaking: Rebake) -> HapticBundle:
     arguments = remaking.arguments
     changes = {one.name: getattr(arguments, one.name) for one in fields(Override) if one.name in arguments}
     if getattr(arguments, "only", None) is not None:
@@ -307,19 +307,19 @@ def _overridden(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
     return bundle.override(arguments.id, **changes)
 
 
-def _remade(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
+def _remade(bundle: HapticBundle, remaking: Rebake) -> HapticBundle:
     return remaking.rebake(_overridden(bundle, remaking))
 
 
-def _corrected(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
+def _corrected(bundle: HapticBundle, remaking: Rebake) -> HapticBundle:
     return remaking.rebake(bundle.corrected(remaking.arguments.file))
 
 
-def _rebaked(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
+def _rebaked(bundle: HapticBundle, remaking: Rebake) -> HapticBundle:
     return remaking.rebake(bundle)
 
 
-def _undone(bundle: HapticBundle | None, remaking: Remaking) -> HapticBundle:
+def _undone(bundle: HapticBundle | None, remaking: Rebake) -> HapticBundle:
     verb, folder = remaking.arguments.verb, Path(remaking.arguments.bundle)
     kind = _STEPS[verb][0]
     steps = steps_beside(folder, kind)

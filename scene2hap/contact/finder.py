@@ -184,7 +184,7 @@ class ContactFinder:
                 recheck.add(y)
 
     def _update_holders(self, x: str, dirty: set[Pair]) -> bool:
-        """Update the holders of a body. Pairs whose bond may have changed become dirty.
+        """Update the holders of a body. Pairs whose attachment may have changed become dirty.
 
         Returns True if the body has lost its full support.
         """

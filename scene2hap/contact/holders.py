@@ -31,7 +31,7 @@ from scene2hap.contact.rule import (
 )
 
 
-class Bond(NamedTuple):
+class Attachment(NamedTuple):
     """One reason why two bodies are in contact.
 
     weight : 0..1; way_m : displacement that brings the pair's `a` to its `b` [m]; normal : from a to b; lies : True if
@@ -46,12 +46,12 @@ class Bond(NamedTuple):
 
 
 NO_WAY: Triple = (0.0, 0.0, 0.0)
-NO_BOND = Bond(0.0, NO_WAY, None, False, "")
+NO_ATTACHMENT = Attachment(0.0, NO_WAY, None, False, "")
 
 
-def priority(bond: Bond) -> tuple[float, bool]:
-    """Sort key: the larger weight wins; on a tie, the bond that has a normal."""
-    return (bond.weight, bond.normal is not None)
+def priority(attachment: Attachment) -> tuple[float, bool]:
+    """Sort key: the larger weight wins; on a tie, the attachment that has a normal."""
+    return (attachment.weight, attachment.normal is not None)
 
 
 def direction(gap: Gap) -> Triple | None:
@@ -64,7 +64,7 @@ def direction(gap: Gap) -> Triple | None:
 
 
 class Holders:
-    """The holders of all bodies: `held` has the bonds of each body that is held, by its id and by the holder's.
+    """The holders of all bodies: `held` has the attachments of each body that is held, by its id and by the holder's.
 
     Parameters: pairs : all bodies and their pairs; a pair is added where a body hangs. near : the neighbours of each
     body; certified : the bodies with a certificate, which neither hang from others nor hold hanging ones.
@@ -72,7 +72,7 @@ class Holders:
 
     def __init__(self, pairs: BodyPairs, near: Mapping[str, Collection[str]], certified: Container[str]) -> None:
         self._pairs, self._bodies, self._near, self._certified = pairs, pairs.bodies, near, certified
-        self.held: dict[str, dict[str, Bond]] = {}
+        self.held: dict[str, dict[str, Attachment]] = {}
         # Bodies without full support: larger bodies near them may hold them by hanging.
         self.unsupported: set[str] = set()
         # Bodies with a support that hid parts of another in the last search: they need the falls of all triangles.
@@ -86,41 +86,41 @@ class Holders:
         body = self._bodies[x]
         pivot_on = self._pairs.hinged.on.get(x)
         if pivot_on is not None:
-            return self._hold(x, {pivot_on: Bond(1.0, NO_WAY, None, False, x)}, is_supported=True)
+            return self._hold(x, {pivot_on: Attachment(1.0, NO_WAY, None, False, x)}, is_supported=True)
         below, lies_on = self._below(body) if self._pairs.of[x] else ({}, ())
-        bonds = {y: self._support(body, y, support, lies=y in lies_on) for y, support in below.items()}
-        supported = max((bond.weight for bond in bonds.values()), default=0.0)
+        attachments = {y: self._support(body, y, support, lies=y in lies_on) for y, support in below.items()}
+        supported = max((attachment.weight for attachment in attachments.values()), default=0.0)
         if supported < 1:
-            for y, bond in self._hanging(body, supported).items():
-                bonds[y] = max(bonds.get(y, NO_BOND), bond, key=priority)
-        return self._hold(x, bonds, is_supported=supported >= 1)
+            for y, attachment in self._hanging(body, supported).items():
+                attachments[y] = max(attachments.get(y, NO_ATTACHMENT), attachment, key=priority)
+        return self._hold(x, attachments, is_supported=supported >= 1)
 
     def rest_alone(self, body: Body, on: str | None, fall_m: float) -> Collection[str]:
         """Let a body lie on one support and touch nothing else, or touch nothing. Returns its present holders and those
         before."""
-        bonds = {} if on is None else {on: self._support(body, on, Support(1.0, fall_m), lies=True)}
-        return self._hold(body.id, bonds, is_supported=on is not None)
+        attachments = {} if on is None else {on: self._support(body, on, Support(1.0, fall_m), lies=True)}
+        return self._hold(body.id, attachments, is_supported=on is not None)
 
     def forget(self, x: str) -> Collection[str]:
         """Forget a removed body. Returns the holders it had."""
         self._on_several.discard(x)
         return self._hold(x, {}, is_supported=True)
 
-    def _hold(self, x: str, bonds: dict[str, Bond], *, is_supported: bool) -> Collection[str]:
+    def _hold(self, x: str, attachments: dict[str, Attachment], *, is_supported: bool) -> Collection[str]:
         before = self.held.pop(x, {})
-        if bonds:
-            self.held[x] = bonds
+        if attachments:
+            self.held[x] = attachments
         if is_supported:
             self.unsupported.discard(x)
         else:
             self.unsupported.add(x)
-        return before.keys() | bonds.keys()
+        return before.keys() | attachments.keys()
 
-    def _support(self, body: Body, y: str, support: Support, *, lies: bool) -> Bond:
-        """Return the bond by which y supports a body."""
+    def _support(self, body: Body, y: str, support: Support, *, lies: bool) -> Attachment:
+        """Return the attachment by which y supports a body."""
         u, v, w = normal = support_normal(body, self._bodies[y])
         fall_m = support.fall_m
-        return Bond(support.weight, (u * fall_m, v * fall_m, w * fall_m), normal, lies, body.id)
+        return Attachment(support.weight, (u * fall_m, v * fall_m, w * fall_m), normal, lies, body.id)
 
     def _below(self, body: Body) -> tuple[Mapping[str, Support], Collection[str]]:
         """Return the supports of a body, and the ids of those on which it rests with a level base face."""
@@ -158,8 +158,8 @@ class Holders:
             least_m = min(least_m, fall_m)
         return {y: fall_m for y, fall_m in found.items() if fall_m < math.inf and fall_m <= least_m + TOUCH_M}
 
-    def _hanging(self, body: Body, supported: float) -> dict[str, Bond]:
-        """Return the bonds by which larger bodies hold a hanging body, scaled by 1 - `supported`."""
+    def _hanging(self, body: Body, supported: float) -> dict[str, Attachment]:
+        """Return the attachments by which larger bodies hold a hanging body, scaled by 1 - `supported`."""
         x, reach_m = body.id, hang_reach_m(body.size_m)
         gaps: dict[str, Gap] = {}
         bodies, size_m = self._bodies, body.size_m
@@ -183,7 +183,8 @@ class Holders:
                 within_m = min(within_m, gap.distance_m + later_m)
         shares = hangs({y: gaps[y].distance_m for y in sorted(gaps)}, reach_m)
         return {
-            y: Bond((1 - supported) * share, gaps[y].way_m, direction(gaps[y]), False, x) for y, share in shares.items()
+            y: Attachment((1 - supported) * share, gaps[y].way_m, direction(gaps[y]), False, x)
+            for y, share in shares.items()
         }
 
     def _space(self, guest: Body, host: Body) -> FreeSpace:
@@ -198,31 +199,31 @@ class Holders:
     def junction(self, pair: Pair) -> Junction | None:
         """Return the junction of a pair, None where it does not touch.
 
-        The strongest bond decides: a held by b, b held by a, touch, or one enclosed by the other.
+        The strongest attachment decides: a held by b, b held by a, touch, or one enclosed by the other.
         """
         a, b = pair
         body_pair = self._pairs.of.get(a, {}).get(b)
         if body_pair is None:
             return None
-        held = (self.held.get(a, {}).get(b, NO_BOND), self.held.get(b, {}).get(a, NO_BOND))
-        bond = max(held, key=priority)
+        held = (self.held.get(a, {}).get(b, NO_ATTACHMENT), self.held.get(b, {}).get(a, NO_ATTACHMENT))
+        attachment = max(held, key=priority)
         within_m = slack = slack_m(min(body_pair.a.size_m, body_pair.b.size_m))
-        if bond.weight < 1 and not apart_by(body_pair.a, body_pair.b, TOUCH_M):
+        if attachment.weight < 1 and not apart_by(body_pair.a, body_pair.b, TOUCH_M):
             gap = body_pair.gap(TOUCH_M)
             if gap is not None:
                 share = weight(gap.distance_m, TOUCH_M)
-                if share > bond.weight:
-                    bond, within_m = Bond(share, NO_WAY, direction(gap), False, a), slack + gap.distance_m
-        if bond.weight < 1:
+                if share > attachment.weight:
+                    attachment, within_m = Attachment(share, NO_WAY, direction(gap), False, a), slack + gap.distance_m
+        if attachment.weight < 1:
             share, play_m = body_pair.enclosed
-            if share > bond.weight:
-                bond, within_m = Bond(share, NO_WAY, None, False, a), slack + play_m
-        if bond.weight <= 0:
+            if share > attachment.weight:
+                attachment, within_m = Attachment(share, NO_WAY, None, False, a), slack + play_m
+        if attachment.weight <= 0:
             return None
-        rest = body_pair.rest(bond.faller) if bond.lies else None
+        rest = body_pair.rest(attachment.faller) if attachment.lies else None
         if rest is None:
-            points = body_pair.points(bond.way_m, within_m)
+            points = body_pair.points(attachment.way_m, within_m)
         else:
-            points = rest_points(*body_pair.falling(bond.faller), rest, within_m)
+            points = rest_points(*body_pair.falling(attachment.faller), rest, within_m)
         n = len(points)
-        return Junction(points, (bond.weight,) * n, (bond.normal,) * n) if points else None
+        return Junction(points, (attachment.weight,) * n, (attachment.normal,) * n) if points else None

@@ -49,7 +49,7 @@ class TopFace(NamedTuple):
     edges: tuple[Triple, ...]
 
 
-class Lean(NamedTuple):
+class Tilt(NamedTuple):
     """The vertical axis of a shape's frame, and its tilt from the vertical [rad]."""
 
     own: Upright
@@ -137,13 +137,13 @@ class Stance:
         return TopFace(outline, sum(h for _, _, h in corners) / len(corners), edges_of(outline))
 
     @lazy
-    def lean(self) -> Lean | None:
+    def lean(self) -> Tilt | None:
         """The tilt of the vertical axis of the shape's frame, None if no axis is near the vertical."""
         up = self.rows[self.up_axis]
         axis = max(range(3), key=lambda k: abs(up[k]))
         u, v = (k for k in range(3) if k != axis)
         tilt = math.hypot(up[u], up[v])
-        return Lean(Upright(axis, 1 if up[axis] > 0 else -1, u, v), tilt) if tilt <= _MOST_LEAN else None
+        return Tilt(Upright(axis, 1 if up[axis] > 0 else -1, u, v), tilt) if tilt <= _MOST_LEAN else None
 
     @lazy
     def upright(self) -> Upright | None:

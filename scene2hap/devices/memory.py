@@ -6,12 +6,12 @@ import numpy as np
 
 from scene2hap.common.calls import clear_calls
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
-from scene2hap.devices.whole_frames import Pulled, WholeFrames
+from scene2hap.devices.whole_frames import PulledSink, WholeFrames
 from scene2hap.errors import DeviceError
 
 
 @clear_calls
-class MemorySink(Pulled):
+class MemorySink(PulledSink):
     """Store the mix in memory, where `samples` has it. It has no clock of its own: `pull` requests the next frames."""
 
     def __init__(self) -> None:

@@ -30,7 +30,7 @@ from scene2hap.devices.protocol import (
     has_clock,
     parts_of,
 )
-from scene2hap.devices.whole_frames import Pulled, WholeFrames
+from scene2hap.devices.whole_frames import PulledSink, WholeFrames
 from scene2hap.errors import ConfigError, DeviceError
 
 MAX_LAG_S = 0.1
@@ -42,7 +42,7 @@ longer."""
 
 
 @clear_calls
-class TeeSink(Pulled):
+class TeeSink(PulledSink):
     """Pass one mix to several sinks: objects, kinds, or mappings with a `kind`.
 
     `stats` has their sums and the largest latency, and is connected if any sink is; `sinks` gives access to each. If no

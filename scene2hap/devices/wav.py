@@ -14,12 +14,12 @@ from scene2hap.common.calls import clear_calls
 from scene2hap.common.text_files import draft_path, path_in_c, put_in_place
 from scene2hap.devices.exclusive_use import claim, give_back
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
-from scene2hap.devices.whole_frames import Pulled, WholeFrames
+from scene2hap.devices.whole_frames import PulledSink, WholeFrames
 from scene2hap.errors import ConfigError, DeviceError, reason_of
 
 
 @clear_calls
-class WavSink(Pulled):
+class WavSink(PulledSink):
     """Write the mix to a WAV file of 24 bits, one channel per hand.
 
     It has no clock of its own: `pull` requests the next frames, `pull_s` the next seconds.

@@ -28,7 +28,7 @@ class WholeFrames:
         return n_frames
 
 
-class Pulled(ABC):
+class PulledSink(ABC):
     """A sink without a clock of its own, which is pulled by frames or by time; `open` sets `_whole`."""
 
     _whole: WholeFrames | None = None

@@ -14,7 +14,7 @@ from scene2hap.propagation.exponential_plate import ExponentialPlate
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, PropagationModel
 from scene2hap.session.mix.sources import LoopRow
-from scene2hap.session.network import Middles, PlatePoses, body_of, excitations_of
+from scene2hap.session.network import BoxCentres, PlatePoses, body_of, excitations_of
 
 LEAST_GAIN = 1e-3
 """Least gain that is exported [-]: 60 dB below the source nothing is felt."""
@@ -50,7 +50,7 @@ def contact_paths(bundle: HapticBundle, model: PropagationModel | None = None) -
     poses = {key: item.pose for key, item in objects.items()}
     contacts = ContactGraph(scene).contacts
     corners = PlatePoses(objects, known, poses)
-    network = ContactNetwork(known, contacts, corners, scene.up_axis, Middles(objects, poses))
+    network = ContactNetwork(known, contacts, corners, scene.up_axis, BoxCentres(objects, poses))
     excitations = excitations_of(rows, known, bundle.objects)
     if not excitations:
         return ()

@@ -37,7 +37,7 @@ _KINDS = "scene2hap.export.kinds"
 
 _OPENXR = ("openxr_pcm", "openxr_envelope", "openxr_parametric")
 
-_ASKED_FOR: dict[str, tuple[str, ...]] = {
+_SYNONYMS: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("quest", "quest2", "quest3", "metaquest", "meta", "oculus", "unity", "unreal"), ("haptic",)),
     **dict.fromkeys(("iphone", "ios", "apple", "corehaptics"), ("ahap",)),
     **dict.fromkeys(("ps5", "playstation", "psvr", "psvr2"), ("dualsense",)),
@@ -64,7 +64,7 @@ EXPORTS = PluginGroup(
     },
     {},
     {"export": ("track",)},
-    asked_for=_ASKED_FOR,
+    synonyms=_SYNONYMS,
 )
 
 

@@ -18,7 +18,7 @@ BACKENDS = PluginGroup(
     extras={},
     members={"complete": ("request",)},
     wraps_functions="FunctionBackend",
-    asked_for={
+    synonyms={
         "gpt4o": ("openai:gpt-4o",),
         **dict.fromkeys(("gpt", "chatgpt"), ("openai",)),
         **dict.fromkeys(("ollama", "vllm", "llamacpp", "llama.cpp", "lmstudio"), ("local",)),

@@ -21,7 +21,7 @@ MODELS = PluginGroup(
     extras={},
     members={"prepare": ("network", "excitations", "bands")},
     # The paper's words for its conditions; "full" is near enough to be found without.
-    asked_for={"none": ("no_propagation",), "attenuated": ("exponential_plate",), "paper": ("exponential_plate",)},
+    synonyms={"none": ("no_propagation",), "attenuated": ("exponential_plate",), "paper": ("exponential_plate",)},
 )
 
 

@@ -120,8 +120,8 @@ class PlatePoses(Mapping[str, Pose]):
         return sum(1 for _ in self)
 
 
-class Middles(Mapping[str, Vector]):
-    """Middles of the boxes around all objects [m], world, each computed on access."""
+class BoxCentres(Mapping[str, Vector]):
+    """Centres of the boxes around all objects [m], world, each computed on access."""
 
     def __init__(self, objects: Mapping[str, SceneObject], poses: Mapping[str, Pose]) -> None:
         self._objects, self._poses = objects, poses

@@ -17,7 +17,7 @@ from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import RemovedIds
 from scene2hap.session.impacts.slams import Slam, Way, is_closed, slam_of
-from scene2hap.session.network import Corners, Middles, PlatePoses, body_of, own_half_m, own_middle_m, rigid_body_of
+from scene2hap.session.network import BoxCentres, Corners, PlatePoses, body_of, own_half_m, own_middle_m, rigid_body_of
 from scene2hap.session.reach import Reach, reach_over
 
 Thing = TypeVar("Thing")
@@ -153,7 +153,7 @@ class SceneState:
         """
         objects, bodies, poses, junctions = self.objects, self.bodies, self.poses, dict(self.graph.junctions)
         spelling, corners, up_axis = self._spelling, self._corners, self._scene.up_axis
-        middles_m = Middles(objects, poses)
+        middles_m = BoxCentres(objects, poses)
 
         def put_together(near: Collection[str]) -> ModelInput:
             if source_ids is None:

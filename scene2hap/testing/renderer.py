@@ -6,7 +6,7 @@ import numpy as np
 
 from scene2hap.common.checks import described
 from scene2hap.scene.capture.protocol import RendererFactory, Selection, drawn, made_renderer
-from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.views import frame
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
@@ -29,20 +29,20 @@ def check_renderer(factory: RendererFactory) -> None:
     Raises: AssertionError: names the broken promise; ConfigError: the result is no picture.
     """
     assert callable(factory), (
-        f"factory is {described(factory)}; it must be the class of the renderer, or a function of a stage and smooth."
+        f"factory is {described(factory)}; it must be the class of the renderer, or a function of a scene and smooth."
     )
-    stage = Stage.of(_ROOM)
-    points = np.concatenate([actor.points_m for actor in stage.actors])
-    camera = frame(points, 30.0, 35.0, stage.up_axis, 0.8, _SIZE_PX)
+    render_scene = RenderScene.of(_ROOM)
+    points = np.concatenate([item.points_m for item in render_scene.objects])
+    camera = frame(points, 30.0, 35.0, render_scene.up_axis, 0.8, _SIZE_PX)
     for smooth in (False, True):
-        renderer = made_renderer(factory, stage, smooth)
+        renderer = made_renderer(factory, render_scene, smooth)
         name = type(renderer).__name__
-        for shown in (stage.everyone, frozenset({1}), frozenset[int]()):
+        for shown in (render_scene.everyone, frozenset({1}), frozenset[int]()):
             selection = Selection(shown)
             pixels, ids = drawn(renderer, camera, selection)
             seen = set(np.unique(ids).tolist()) - {-1}
             assert pixels.dtype == np.uint8, f"{name}.draw gives pixels of type {pixels.dtype}; it must be uint8"
-            assert seen == shown, f"{name} shows the actors {sorted(seen)}; requested were {sorted(shown)}"
+            assert seen == shown, f"{name} shows the objects {sorted(seen)}; requested were {sorted(shown)}"
             identified = renderer.identify(camera, selection)
             assert np.array_equal(identified, ids), f"{name}.identify and draw tell other ids"
             again, _ = drawn(renderer, camera, selection)

@@ -271,14 +271,14 @@ class Converter:
         self._change, self._end, self._whole = change, end, CONVERTERS.build("lowpass")
 
     def stream(self, sample_rate_hz: int, context: Any) -> Any:
-        guest, stream = self, self._whole.stream(sample_rate_hz, context)
+        plugin, stream = self, self._whole.stream(sample_rate_hz, context)
 
         class Stream:
             def process(self, block: Any) -> Any:
-                return guest._change(stream.process(block))
+                return plugin._change(stream.process(block))
 
             def finish(self) -> Any:
-                return guest._end(stream.finish())
+                return plugin._end(stream.finish())
 
         return Stream()
 
@@ -420,9 +420,9 @@ def test_broken_backends_fail_the_contract(backend: Any, words: str) -> None:
 
 
 class Renderer:
-    """A renderer that draws a row for each shown actor, and then changes the result."""
+    """A renderer that draws a row for each shown item, and then changes the result."""
 
-    def __init__(self, stage: Any, smooth: bool) -> None:
+    def __init__(self, render_scene: Any, smooth: bool) -> None:
         pass
 
     def identify(self, camera: Any, selection: Any) -> Any:
@@ -456,13 +456,13 @@ def test_a_plain_renderer_passes() -> None:
 @pytest.mark.parametrize(
     ("factory", "words"),
     [
-        (lambda stage: None, "must take"),
-        (lambda stage, smooth: None, "None has no 'identify'"),
+        (lambda render_scene: None, "must take"),
+        (lambda render_scene, smooth: None, "None has no 'identify'"),
         (changed(lambda pixels, ids: pixels), "gave a ndarray; it must give pixels and ids"),
         (changed(lambda pixels, ids: (pixels[:9], ids)), "gave pixels of shape"),
         (changed(lambda pixels, ids: (pixels / 255, ids)), "float64"),
         (changed(lambda pixels, ids: (pixels.astype(int), ids)), "it must be uint8"),
-        (changed(lambda pixels, ids: (pixels, ids + 1)), "shows the actors"),
+        (changed(lambda pixels, ids: (pixels, ids + 1)), "shows the objects"),
         (changed(lambda pixels, ids: (pixels, np.roll(ids, 1, axis=0))), "identify and draw tell other ids"),
         (changed(lambda pixels, ids: (np.full_like(pixels, 255), ids)), "in the colour of the background"),
         (changed(restless), "when it draws again"),

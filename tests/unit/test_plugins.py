@@ -56,15 +56,15 @@ def test_missing_attribute_is_named() -> None:
 
 
 def test_plugins_are_found_by_entry_points(monkeypatch: pytest.MonkeyPatch) -> None:
-    guest = EntryPoint("decimal", "decimal:Decimal", "scene2hap.test")
-    monkeypatch.setattr(plugins, "entry_points", lambda group: (guest,) if group == "scene2hap.test" else ())
+    plugin = EntryPoint("decimal", "decimal:Decimal", "scene2hap.test")
+    monkeypatch.setattr(plugins, "entry_points", lambda group: (plugin,) if group == "scene2hap.test" else ())
     assert "decimal" in GROUP.kinds()
     assert str(GROUP.build({"kind": "decimal", "value": "1.5"})) == "1.5"
 
 
 def test_broken_plugin_raises_a_plugin_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    guest = EntryPoint("broken", "scene2hap_no_such_module:Thing", "scene2hap.test")
-    monkeypatch.setattr(plugins, "entry_points", lambda group: (guest,))
+    plugin = EntryPoint("broken", "scene2hap_no_such_module:Thing", "scene2hap.test")
+    monkeypatch.setattr(plugins, "entry_points", lambda group: (plugin,))
     with pytest.raises(ConfigError, match="does not import"):
         GROUP.load("broken")
 
@@ -80,9 +80,9 @@ def test_plugins_are_listed_with_their_errors(monkeypatch: pytest.MonkeyPatch, t
         "number": "math:pi",
         next(iter(GROUP.builtins)): "decimal:Decimal",
     }
-    guests = tuple(EntryPoint(name, value, GROUP.name) for name, value in found.items())
-    monkeypatch.setattr(plugins, "entry_points", lambda group: guests)
-    problems = {guest.kind: guest.problem for guest in GROUP.guests()}
+    installed = tuple(EntryPoint(name, value, GROUP.name) for name, value in found.items())
+    monkeypatch.setattr(plugins, "entry_points", lambda group: installed)
+    problems = {plugin.kind: plugin.problem for plugin in GROUP.installed()}
     assert problems.pop("decimal") == ""
     assert "does not import" in problems["broken"]
     assert "math:no does not exist" in problems["gone"]

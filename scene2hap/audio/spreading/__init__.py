@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 from scene2hap.audio.distinctness import FREQUENCY_WEBER, WIDEST_WEBER
 from scene2hap.audio.spreading.best_response import iterated_best_response
-from scene2hap.audio.spreading.linear_programme import Programme
+from scene2hap.audio.spreading.linear_programme import LinearProgramme
 from scene2hap.audio.spreading.placements import Problem, SpreadLimits, Voice
 from scene2hap.haptics import ActuatorProfile
 
@@ -45,7 +45,9 @@ def spread(
         return tuple(stay[voice] for voice in voices)
     for weber, counts_rhythm in ((WIDEST_WEBER, False), (FREQUENCY_WEBER, False), (FREQUENCY_WEBER, True)):
         problem = Problem.of(tuple(stay), actuator or ActuatorProfile(), limits, weber, counts_rhythm=counts_rhythm)
-        outcome = Programme(problem).solve() if len(problem.pairs) <= _EXACT_PAIRS else iterated_best_response(problem)
+        outcome = (
+            LinearProgramme(problem).solve() if len(problem.pairs) <= _EXACT_PAIRS else iterated_best_response(problem)
+        )
         if outcome.shortage_oct < _ENOUGH_OCT:
             break
     placed = {

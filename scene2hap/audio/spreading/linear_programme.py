@@ -28,7 +28,7 @@ _NODES = 1000
 """Most branches of the search. Unlike a time limit, it gives the same result on every machine."""
 
 
-class Programme:
+class LinearProgramme:
     """The programme. Its variables in order: x, moves of x, l, moves of l (n each), then s, o, m, m' (one per pair)."""
 
     def __init__(self, problem: Problem) -> None:

@@ -37,7 +37,7 @@ def features_of(triangles: Floats) -> Features:
         return np.zeros(0, dtype=np.uint8)
     points = triangles.transpose(0, 2, 1).reshape(3, n_edges)
     corners = _welded(points)
-    twins = _Twins.of(corners)
+    twins = _SharedEdges.of(corners)
     kept = twins.first[~_are_flat(points, twins)]
     marks = np.zeros(n_edges, dtype=np.uint8)
     marks[kept] = 1 << (kept % 3)
@@ -51,7 +51,7 @@ def features_of(triangles: Floats) -> Features:
     return found
 
 
-class _Twins(NamedTuple):
+class _SharedEdges(NamedTuple):
     """Edges grouped by their two end points.
 
     edges : (3 m,) group by group, the lowest edge first; begins : (n,) start of each group in `edges`; group : (3 m,)
@@ -63,7 +63,7 @@ class _Twins(NamedTuple):
     group: Indices
 
     @classmethod
-    def of(cls, corners: Indices) -> _Twins:
+    def of(cls, corners: Indices) -> _SharedEdges:
         """Group the edges that start at welded corners (3 m,)."""
         ends = corners[_next(np.arange(len(corners)))]
         keys = np.minimum(corners, ends) * len(corners) + np.maximum(corners, ends)
@@ -77,7 +77,7 @@ class _Twins(NamedTuple):
         return self.edges[self.begins]
 
 
-def _are_flat(points: Floats, twins: _Twins) -> Marks:
+def _are_flat(points: Floats, twins: _SharedEdges) -> Marks:
     """Mark the groups (n,) of twins that lie inside a flat face, with triangles on both sides."""
     a, b, c = points[:, ::3], points[:, 1::3], points[:, 2::3]
     normals = cross(b - a, c - a)
@@ -104,7 +104,7 @@ def _are_flat(points: Floats, twins: _Twins) -> Marks:
     return flat & ~is_bent[face[first // 3]]
 
 
-def _faces(twins: _Twins, flat: Marks, n_triangles: int) -> Indices:
+def _faces(twins: _SharedEdges, flat: Marks, n_triangles: int) -> Indices:
     """Return the face number (m,) of each triangle; flat edges join triangles into faces."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components

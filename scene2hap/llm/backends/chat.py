@@ -50,7 +50,7 @@ class RefusedAnswer(UnusableAnswer, AnswerRefused):
 
 
 @dataclass(frozen=True)
-class Said(LLMReply):
+class RawReply(LLMReply):
     """A model's message before any check. Some servers put the answer into `thoughts` by mistake."""
 
     thoughts: str = ""
@@ -84,7 +84,7 @@ def about(request: LLMRequest) -> str:
     return f"{request.component} about {shown(request.subject or 'the scene')}"
 
 
-def read_chat(reply: WebReply, model: str) -> Said:
+def read_chat(reply: WebReply, model: str) -> RawReply:
     """Read a chat completion. `model` is used if the server does not name one.
 
     Raises: BackendUnavailable: an error status, or an error under status 200. UnusableAnswer: not a chat completion.
@@ -100,7 +100,7 @@ def read_chat(reply: WebReply, model: str) -> Said:
             model=text_of(body.get("model")) or model,
             usage=_usage(body.get("usage")),
         )
-    return Said(
+    return RawReply(
         text=_content(message),
         model=text_of(body.get("model")) or model,
         finish_reason=text_of(choice.get("finish_reason")) or "stop",
@@ -126,7 +126,7 @@ def _content(message: Mapping[str, Any]) -> str:
     return text_of(function.get("arguments")) if isinstance(function, dict) else ""
 
 
-def require_whole(said: Said, about: str) -> None:
+def require_whole(said: RawReply, about: str) -> None:
     """Reject an answer that must not be parsed, even if its content looks valid.
 
     Raises: UnusableAnswer: cut short, with the partial answer; RefusedAnswer: filtered or refused.

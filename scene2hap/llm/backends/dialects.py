@@ -48,7 +48,7 @@ class Dialect(Protocol):
         """Return the body of a request. `text` is the prompt with the list of answer fields."""
         ...
 
-    def read(self, reply: WebReply, model: str) -> chat.Said:
+    def read(self, reply: WebReply, model: str) -> chat.RawReply:
         """Read a reply. Raises: BackendUnavailable, BadAnswer."""
         ...
 
@@ -82,7 +82,7 @@ class ChatCompletions:
             body["response_format"] = {"type": "json_object"}
         return body
 
-    def read(self, reply: WebReply, model: str) -> chat.Said:
+    def read(self, reply: WebReply, model: str) -> chat.RawReply:
         """Read a reply with `chat.read_chat`."""
         return chat.read_chat(reply, model)
 
@@ -119,14 +119,14 @@ class OllamaChat:
             body["format"] = "json"
         return body
 
-    def read(self, reply: WebReply, model: str) -> chat.Said:
+    def read(self, reply: WebReply, model: str) -> chat.RawReply:
         """Translate a reply of Ollama into a chat completion."""
         body = chat.json_object(reply)
         message = body.get("message")
         if not isinstance(message, dict):
             raise BadAnswer(f"{reply.url} sent no chat message. Check base_url and the dialect.", reply.text)
         renamed = {"prompt_tokens": body.get("prompt_eval_count"), "completion_tokens": body.get("eval_count")}
-        return chat.Said(
+        return chat.RawReply(
             text=chat.text_of(message.get("content")),
             model=chat.text_of(body.get("model")) or model,
             finish_reason=chat.text_of(body.get("done_reason")) or "stop",

@@ -141,7 +141,7 @@ class LocalBackend:
     def _is_ollama(self) -> bool:
         return isinstance(self._dialect, OllamaChat)
 
-    async def _ask(self, request: LLMRequest) -> chat.Said:
+    async def _ask(self, request: LLMRequest) -> chat.RawReply:
         for rung in range(self._rung, len(LADDER)):
             reply = await self._post(request, LADDER[rung])
             if reply.status not in _FORM_REJECTED or chat.is_withheld(reply):

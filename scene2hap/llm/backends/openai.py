@@ -136,7 +136,7 @@ class OpenAIBackend:
         """Return the body of a request, without parameters that this model has rejected."""
         return self._optional.adapted(self._body(request))
 
-    def judged(self, request: LLMRequest, said: chat.Said) -> LLMReply:
+    def judged(self, request: LLMRequest, said: chat.RawReply) -> LLMReply:
         """Return the reply for a chat completion. Raises: BadAnswer: as `complete`."""
         self._images_as_text.look(request, said)
         chat.require_whole(said, chat.about(request))
@@ -158,7 +158,7 @@ class OpenAIBackend:
             **({} if self._tier is None else {"service_tier": self._tier}),
         }
 
-    async def _ask(self, body: dict[str, Any]) -> chat.Said:
+    async def _ask(self, body: dict[str, Any]) -> chat.RawReply:
         """Post the request, and repeat it once without each parameter that the model rejects.
 
         If the tier has no capacity, only this request is repeated without the tier.

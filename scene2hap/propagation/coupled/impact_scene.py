@@ -45,7 +45,7 @@ class HeldBody:
     joints_m: Floats
 
 
-class StruckScene:
+class ImpactScene:
     """Gains from impacts on objects to points of touched ones.
 
     Parameters: bodies : of struck and touched objects; passed : H (n_frequencies, n_joints of the touched, n_joints of

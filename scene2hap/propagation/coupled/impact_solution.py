@@ -16,7 +16,7 @@ from scene2hap.common.arrays import Complex, Floats
 from scene2hap.contact.junction import Pair
 from scene2hap.propagation.coupled.coupling import Joint, JointSystem, ends_of, systems
 from scene2hap.propagation.coupled.hand import Hand
-from scene2hap.propagation.coupled.impact_scene import IMPACT_BANDS, HeldBody, StruckScene
+from scene2hap.propagation.coupled.impact_scene import IMPACT_BANDS, HeldBody, ImpactScene
 from scene2hap.propagation.elastic_body import ElasticBody
 
 MOST_HELD_BYTES = 128_000_000
@@ -37,7 +37,7 @@ def solve_struck(
     touched_ids: Collection[str],
     frequencies_hz: Floats,
     hand: Hand | None = None,
-) -> StruckScene:
+) -> ImpactScene:
     """Solve connected groups of bodies for impacts on any of their objects and hands on the touched ones.
 
     Pairs that do not fit into `MOST_HELD_BYTES` are left out.
@@ -60,7 +60,7 @@ def solve_struck(
     passed = {pair: held for group in connected for pair, held in group.passed(kept, frequencies_hz).items()}
     held = {key: HeldBody(bodies[key], group.ends[key].points_m) for group in connected for key in group.object_ids}
     silent = frozenset(pair for pair, level in levels.items() if level <= SILENT)
-    return StruckScene({x: held[x] for pair in kept for x in pair}, passed, silent, frequencies_hz, hand)
+    return ImpactScene({x: held[x] for pair in kept for x in pair}, passed, silent, frequencies_hz, hand)
 
 
 class _Group:
@@ -110,7 +110,7 @@ class _Group:
         return found
 
     def passed(self, pairs: Collection[Pair], frequencies_hz: Floats) -> dict[Pair, Complex]:
-        """H of those pairs that are in this group, see `StruckScene`."""
+        """H of those pairs that are in this group, see `ImpactScene`."""
         found: dict[Pair, list[Complex]] = {}
         own = {pair for pair in pairs if pair[0] in self.ends}
         for _, _, held in self._solved(own, frequencies_hz) if own else ():

@@ -32,7 +32,7 @@ from scene2hap.propagation.coupled.coupling import Joint, couple, inclined_in, r
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.hand_load import HandLoad
 from scene2hap.propagation.coupled.hollow import no_heavier_than_object
-from scene2hap.propagation.coupled.impact_scene import DENSITY, IMPACT_BANDS, StruckScene
+from scene2hap.propagation.coupled.impact_scene import DENSITY, IMPACT_BANDS, ImpactScene
 from scene2hap.propagation.coupled.impact_solution import solve_struck
 from scene2hap.propagation.coupled.joints import joints_of, legs_of, source_groups
 from scene2hap.propagation.coupled.object_response import ObjectResponse
@@ -91,7 +91,7 @@ class Assembly:
 
     def struck(
         self, touched_ids: Collection[str], elastic: Mapping[str, ElasticBody], hand: Hand | None = None
-    ) -> StruckScene:
+    ) -> ImpactScene:
         """Solve all objects that are connected with touched ones, for impacts. Each touched object must carry a source.
 
         Parameters: elastic : a body for each of the plates; hand : load at the struck and at touched points.
@@ -173,7 +173,7 @@ def prepare_coupled(
 
 
 @one_blas_thread
-def prepare_struck(model: CoupledModel, network: ContactNetwork, touched_ids: Collection[str]) -> StruckScene:
+def prepare_struck(model: CoupledModel, network: ContactNetwork, touched_ids: Collection[str]) -> ImpactScene:
     """Prepare a scene for impacts on any point of the objects that are connected with touched ones.
 
     The only sources are probes on the touched objects, too light to change anything.

@@ -25,10 +25,10 @@ from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.capture.batch import capture_stats, render_all
 from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.isolated_objects import SUBJECT, by_itself
-from scene2hap.scene.capture.lazy_pictures import CaptureStats, Studio
+from scene2hap.scene.capture.lazy_pictures import CaptureStats, LazyPictures
 from scene2hap.scene.capture.picture_sheets import contact_sheet, plan_view
 from scene2hap.scene.capture.protocol import Renderer, RendererFactory, Selection
-from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.views import Camera
 from scene2hap.scene.images import ImageSet, ObjectImages
 from scene2hap.scene.objects import SceneObject
@@ -39,10 +39,10 @@ __all__ = [
     "Camera",
     "CaptureConfig",
     "CaptureStats",
+    "RenderScene",
     "Renderer",
     "RendererFactory",
     "Selection",
-    "Stage",
     "capture_images",
     "capture_stats",
     "contact_sheet",
@@ -58,7 +58,7 @@ RENDERERS = PluginGroup(
     },
     extras={"embree": "pictures", "panda3d": "panda3d"},
 )
-"""Registered renderers: classes or functions that are called with a `Stage` and a flag for smooth edges."""
+"""Registered renderers: classes or functions that are called with a `RenderScene` and a flag for smooth edges."""
 
 
 @clear_call
@@ -97,19 +97,19 @@ def capture_images(
         raise ConfigError(f"object_ids is the text {object_ids!r}; give a list of ids, [{object_ids!r}].")
     given = None if object_ids is None else checks.items("object_ids", object_ids, error=ConfigError)
     wanted = {item.id for item in scene.objects} if given is None else {scene.object(key).id for key in given}
-    studio = Studio(scene, settings, factory, name)
+    pictures = LazyPictures(scene, settings, factory, name)
 
     def images(item: SceneObject) -> ObjectImages:
         if not alone:
             shots = settings.object_shots
             return ObjectImages(
-                ImageSet(studio, shots("isolated", item.id)), ImageSet(studio, shots("context", item.id))
+                ImageSet(pictures, shots("isolated", item.id)), ImageSet(pictures, shots("context", item.id))
             )
-        own = Studio(by_itself(item, scene.up_axis), settings, factory, name)
+        own = LazyPictures(by_itself(item, scene.up_axis), settings, factory, name)
         return ObjectImages(ImageSet(own, settings.object_shots("isolated", SUBJECT)), ImageSet(own, ()))
 
     objects = tuple(replace(item, images=images(item)) if item.id in wanted else item for item in scene.objects)
-    return replace(scene, objects=objects, images=ImageSet(studio, settings.scene_shots()))
+    return replace(scene, objects=objects, images=ImageSet(pictures, settings.scene_shots()))
 
 
 def _loaded(kind: str) -> RendererFactory:

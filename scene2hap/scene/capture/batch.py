@@ -15,10 +15,10 @@ from pathlib import Path
 
 from scene2hap.errors import ConfigError
 from scene2hap.scene.capture.config import CaptureConfig
-from scene2hap.scene.capture.lazy_pictures import CaptureStats, Studio
+from scene2hap.scene.capture.lazy_pictures import CaptureStats, LazyPictures
 from scene2hap.scene.capture.protocol import RendererFactory, made_renderer
+from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.shot_rendering import Photographer
-from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.images import ImageSet, Shot
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -37,22 +37,22 @@ def render_all(scene: SceneSnapshot, workers: int | None = None, *, progress: Pr
     Returns: counters of the capture so far.
     Raises: ConfigError: the scene was not captured, or the workers died.
     """
-    studio = _studio(scene)
-    workers = studio.config.workers if workers is None else workers
+    pictures = _lazy_pictures(scene)
+    workers = pictures.config.workers if workers is None else workers
     sets: list[ImageSet] = [scene.images] if scene.images is not None else []
     for item in scene.objects:
         if item.images is not None:
             sets += (item.images.isolated, item.images.context)
-    wanted = studio.missing(shot for images in sets if images.source is studio for shot in images.shots)
-    by_themselves = [images for images in sets if images.source is not studio]
+    wanted = pictures.missing(shot for images in sets if images.source is pictures for shot in images.shots)
+    by_themselves = [images for images in sets if images.source is not pictures]
     is_alone = workers <= 1 or len(wanted) <= 1
-    taken = _alone(studio, wanted) if is_alone else _shared(studio, wanted, workers - 1)
+    taken = _alone(pictures, wanted) if is_alone else _shared(pictures, wanted, workers - 1)
     total = len(wanted) + sum(map(len, by_themselves))
     # An object shown alone has a small scene of its own, so another process would not save time.
     for n_done, _ in enumerate(chain(taken, chain.from_iterable(by_themselves)), start=1):
         if progress is not None:
             progress(n_done, total)
-    return studio.stats
+    return pictures.stats
 
 
 def capture_stats(scene: SceneSnapshot) -> CaptureStats:
@@ -60,23 +60,23 @@ def capture_stats(scene: SceneSnapshot) -> CaptureStats:
 
     Raises: ConfigError: the scene was not captured.
     """
-    return _studio(scene).stats
+    return _lazy_pictures(scene).stats
 
 
-def _studio(scene: SceneSnapshot) -> Studio:
+def _lazy_pictures(scene: SceneSnapshot) -> LazyPictures:
     source = None if scene.images is None else scene.images.source
-    if not isinstance(source, Studio):
+    if not isinstance(source, LazyPictures):
         raise ConfigError(f"scene {scene.name!r} has no images to take; call capture_images first.")
     return source
 
 
-def _alone(studio: Studio, wanted: list[Shot]) -> Iterator[Shot]:
+def _alone(pictures: LazyPictures, wanted: list[Shot]) -> Iterator[Shot]:
     for shot in wanted:
-        studio.image(shot)
+        pictures.image(shot)
         yield shot
 
 
-def _shared(studio: Studio, wanted: list[Shot], others: int) -> Iterator[Shot]:
+def _shared(pictures: LazyPictures, wanted: list[Shot], others: int) -> Iterator[Shot]:
     """Render pictures in this process, which needs no start-up time, and in others."""
     # Spawned processes are the same on every system, and inherit no thread that holds a lock.
     context = multiprocessing.get_context("spawn")
@@ -86,17 +86,17 @@ def _shared(studio: Studio, wanted: list[Shot], others: int) -> Iterator[Shot]:
     try:
         # The data goes through a file. With a pipe, this process would wait until the others have started and read it.
         with (
-            _written((studio.stage, studio.config, studio.factory, studio.below)) as setting,
+            _written((pictures.render_scene, pictures.config, pictures.factory, pictures.below)) as setting,
             ProcessPoolExecutor(others, mp_context=context, initializer=_set_up, initargs=(setting,)) as pool,
         ):
             while portions or given:
                 while portions and len(given) < _AHEAD * others:
                     given.add(pool.submit(_take, portions.popleft()))
                 if portions:
-                    yield from _alone(studio, portions.pop())
+                    yield from _alone(pictures, portions.pop())
                 done, given = wait(given, timeout=0 if portions else None, return_when=FIRST_COMPLETED)
                 for shot, picture in chain.from_iterable(future.result() for future in done):
-                    studio.keep(shot, picture)
+                    pictures.keep(shot, picture)
                     yield shot
     except BrokenProcessPool as cause:
         raise ConfigError(
@@ -109,18 +109,18 @@ _photographer: Photographer | None = None
 
 
 @contextmanager
-def _written(setting: tuple[Stage, CaptureConfig, RendererFactory, tuple[int | None, ...]]) -> Iterator[Path]:
+def _written(setting: tuple[RenderScene, CaptureConfig, RendererFactory, tuple[int | None, ...]]) -> Iterator[Path]:
     """Yield a temporary file with the data for the other processes."""
     with tempfile.TemporaryDirectory(prefix="scene2hap-") as folder:
-        path = Path(folder) / "stage.pickle"
+        path = Path(folder) / "render_scene.pickle"
         path.write_bytes(pickle.dumps(setting, pickle.HIGHEST_PROTOCOL))
         yield path
 
 
 def _set_up(setting: Path) -> None:
     global _photographer
-    stage, config, factory, below = pickle.loads(setting.read_bytes())
-    _photographer = Photographer(stage, made_renderer(factory, stage, config.antialias), config, below)
+    render_scene, config, factory, below = pickle.loads(setting.read_bytes())
+    _photographer = Photographer(render_scene, made_renderer(factory, render_scene, config.antialias), config, below)
 
 
 def _take(shots: list[Shot]) -> list[tuple[Shot, bytes]]:

@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 
 from scene2hap.common.arrays import Floats
 from scene2hap.scene.capture.protocol import Ids, Renderer, Selection
-from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.surroundings import containers, near, shells
 from scene2hap.scene.capture.views import Camera
 from scene2hap.scene.geometry import Vector, vector
@@ -47,12 +47,12 @@ _MAX_LAYERS = 64
 
 @dataclass(frozen=True)
 class Culler:
-    """Selection of the objects of each picture of a `Stage`.
+    """Selection of the objects of each picture of a `RenderScene`.
 
-    `near_share` and `hidden_share` as in `CaptureConfig`; `below` : the stage's `supports`.
+    `near_share` and `hidden_share` as in `CaptureConfig`; `below` : the scene's `supports`.
     """
 
-    stage: Stage
+    scene: RenderScene
     renderer: Renderer
     near_share: float
     hidden_share: float
@@ -61,16 +61,16 @@ class Culler:
     @cached_property
     def shells(self) -> frozenset[int]:
         """Walls, floors, ceilings and rooms."""
-        return shells(self.stage)
+        return shells(self.scene)
 
     def around(self, target: int, close: Camera, wide: Camera) -> Selection:
         """Select the objects of the context picture `wide`; `close` has the same eye and frames only the target."""
         aim = _Aim(self, target, close.resized(_GRID_PX))
         opened = self._hiding_shells(self.shells - {target}, wide, aim.focus_m)
         blockers = aim.blockers(opened)
-        beside = near(self.stage, target, self.near_share) | {self.below[target]}
-        holders = containers(self.stage, target)
-        kept, hidden = self.stage.everyone - blockers, np.zeros_like(aim.is_target)
+        beside = near(self.scene, target, self.near_share) | {self.below[target]}
+        holders = containers(self.scene, target)
+        kept, hidden = self.scene.everyone - blockers, np.zeros_like(aim.is_target)
         candidates = blockers & (self.shells | beside)
         for number in sorted(candidates, key=lambda k: (k != self.below[target], aim.hidden_by(k, False).sum(), k)):
             ways = [True] if number in self.shells else [False, True] if number in holders else [False]
@@ -86,17 +86,17 @@ class Culler:
 
     def overview(self, wide: Camera) -> Selection:
         """Select the objects of a picture of the whole scene."""
-        low, high = self.stage.box_m
+        low, high = self.scene.box_m
         focus = vector((low + high) / 2)
         opened = self._hiding_shells(self.shells, wide, focus)
         culled = self._on_the_way(wide, np.asarray(focus)) - self.shells
-        return Selection(self.stage.everyone - culled, opened, focus)
+        return Selection(self.scene.everyone - culled, opened, focus)
 
     def _hiding_shells(self, shells: frozenset[int], wide: Camera, focus: Vector) -> frozenset[int]:
         """Return the shells, if opening them uncovers much of the other objects in the picture; else none."""
         if not shells:
             return shells
-        coarse, everyone = wide.resized(_GRID_PX), self.stage.everyone
+        coarse, everyone = wide.resized(_GRID_PX), self.scene.everyone
         closed = self.renderer.identify(coarse, Selection(everyone))
         opened = self.renderer.identify(coarse, Selection(everyone, shells, focus))
         things = ~np.isin(opened, [*shells, -1])
@@ -108,8 +108,8 @@ class Culler:
         pixel, _ = wide.project(middle[None])
         spot = wide.at_pixel(pixel[0])
         found = set()
-        for number in self.stage.everyone:
-            low, high = self.stage.actors[number].box_m
+        for number in self.scene.everyone:
+            low, high = self.scene.objects[number].box_m
             if (low <= middle).all() and (middle <= high).all():
                 continue
             is_on_ray = _segment_meets(low, high, wide.eye_m, middle)
@@ -123,13 +123,13 @@ class _Aim:
 
     def __init__(self, culler: Culler, target: int, close: Camera) -> None:
         self._culler, self._target, self._close = culler, target, close
-        self.focus_m = vector(culler.stage.actors[target].box_m.mean(axis=0))
+        self.focus_m = vector(culler.scene.objects[target].box_m.mean(axis=0))
         self.is_target = self._ids(frozenset({target})) == target
         self._masks: dict[tuple[int, bool], Mask] = {}
 
     def blockers(self, opened: frozenset[int]) -> frozenset[int]:
         """Return all objects between the eye and the silhouette, found layer by layer."""
-        everyone = self._culler.stage.everyone
+        everyone = self._culler.scene.everyone
         found: frozenset[int] = frozenset()
         for _ in range(_MAX_LAYERS):
             ids = self._ids(everyone - found, opened)

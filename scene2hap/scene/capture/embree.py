@@ -22,7 +22,7 @@ from scene2hap.common.arrays import Floats32
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB, light
 from scene2hap.scene.capture.faces import planes, separates
 from scene2hap.scene.capture.protocol import Ids, Pixels, Selection
-from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.views import Camera
 
 Ints = NDArray[np.int64]
@@ -48,7 +48,7 @@ _ADDED_RAYS = ((-0.33, 0.17), (0.17, -0.33))
 
 @dataclass(frozen=True, eq=False)
 class _Hits:
-    """Hits of rays: triangle (n,) of the `Stage`, -1 for none; depth (n,) [m]; weights (2, n) of corners 2 and 3."""
+    """Hits of rays: triangle (n,) of the scene, -1 for none; depth (n,) [m]; weights (2, n) of corners 2 and 3."""
 
     triangle: Ints
     depth: Floats32
@@ -57,7 +57,7 @@ class _Hits:
 
 @dataclass(frozen=True, eq=False)
 class _Tree:
-    """A search tree over some triangles; `numbers` are their numbers in the `Stage`, then -1 for no triangle."""
+    """A search tree over some triangles; `numbers` are their numbers in the `RenderScene`, then -1 for no triangle."""
 
     scene: Any
     numbers: Ints
@@ -71,27 +71,27 @@ class _Tree:
 class EmbreeRenderer:
     """Render a scene by ray casting, with smooth edges; the default. See `Renderer`."""
 
-    def __init__(self, stage: Stage, antialias: bool = False) -> None:
-        self._stage = stage
+    def __init__(self, scene: RenderScene, antialias: bool = False) -> None:
+        self._scene = scene
         self._antialias = antialias
-        counts = [len(actor.triangles_m) for actor in stage.actors]
+        counts = [len(item.triangles_m) for item in scene.objects]
         self._first = np.cumsum([0, *counts])
         # The last entry is for triangle -1, which is no triangle.
-        self._actor_of = np.append(np.repeat(np.arange(len(counts), dtype=np.int32), counts), np.int32(-1))
-        self._corners = np.concatenate([actor.triangles_m for actor in stage.actors])
-        self._material = np.concatenate([actor.material for actor in stage.actors])
-        uv = np.concatenate([actor.uv for actor in stage.actors]).transpose(2, 1, 0)
+        self._object_of = np.append(np.repeat(np.arange(len(counts), dtype=np.int32), counts), np.int32(-1))
+        self._corners = np.concatenate([item.triangles_m for item in scene.objects])
+        self._material = np.concatenate([item.material for item in scene.objects])
+        uv = np.concatenate([item.uv for item in scene.objects]).transpose(2, 1, 0)
         # In one piece, since `take` copies the whole of any other array, at each call.
         self._uv = np.ascontiguousarray(np.stack((uv[:, 0], uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]), axis=1))
-        self._paint = stage.palette.rgb[self._material] * 255
-        self._is_patterned = np.append(stage.palette.is_patterned[self._material], False)
-        self._has_cutouts = bool(stage.palette.is_cutout.any())
+        self._paint = scene.palette.rgb[self._material] * 255
+        self._is_patterned = np.append(scene.palette.is_patterned[self._material], False)
+        self._has_cutouts = bool(scene.palette.is_cutout.any())
         self._trees: dict[frozenset[int], _Tree] = {}
         self._light = frozenset(k for k, count in enumerate(counts) if count <= _LIGHT)
         self._cut: tuple[object, list[_Tree]] = (None, [])
         # All rays of a picture share an eye, but Embree needs an origin for each ray, so the array is reused.
         self._origins = np.empty((0, 3), np.float32)
-        self._step = stage.diagonal_m * _STEP_OF_SCENE
+        self._step = scene.diagonal_m * _STEP_OF_SCENE
 
     def identify(self, camera: Camera, selection: Selection) -> Ids:
         """Return the object at the middle of each pixel."""
@@ -120,7 +120,7 @@ class EmbreeRenderer:
     def _covered(self, camera: Camera, selection: Selection) -> Ints:
         """Return the numbers of the pixels that the selection can cover."""
         few = len(selection.shown) <= _FEW
-        boxes = [self._stage.actors[k].box_m for k in selection.shown] if few else [self._stage.box_m]
+        boxes = [self._scene.objects[k].box_m for k in selection.shown] if few else [self._scene.box_m]
         is_covered = np.zeros((camera.size_px, camera.size_px), bool)
         for box in boxes:
             corners = np.stack(np.meshgrid(*box.T), axis=-1).reshape(-1, 3)
@@ -135,7 +135,10 @@ class EmbreeRenderer:
             trees = [self._tree(frozenset({number})) for number in sorted(selection.shown)]
         else:
             apart = selection.opened & selection.shown & self._light
-            trees = [self._tree(self._stage.everyone - apart), *self._faces_left(apart, camera, selection, passed)]
+            trees = [
+                self._tree(self._scene.everyone - apart),
+                *self._faces_left(apart, camera, selection, passed),
+            ]
         found = [self._first_hits(tree, camera, directions, passed) for tree in trees]
         return _nearest(found) if found else _nothing(len(directions))
 
@@ -164,7 +167,7 @@ class EmbreeRenderer:
         triangle = hits.triangle
         is_passed = np.zeros(len(triangle), bool) if passed is None else passed.take(triangle)
         if self._has_cutouts:
-            palette, material = self._stage.palette, self._material[triangle]
+            palette, material = self._scene.palette, self._material[triangle]
             holed = np.flatnonzero(palette.is_cutout[material] & (triangle >= 0) & ~is_passed)
             texel = palette.texel(material[holed], self._uv_at(triangle[holed], hits.weights[:, holed]))
             is_passed[holed] = palette.texels[texel, 3] < 128
@@ -173,11 +176,11 @@ class EmbreeRenderer:
     def _passed(self, camera: Camera, selection: Selection) -> Flags | None:
         """Return a mask of the triangles that the selection hides; None if it shows all. The last entry is for no
         triangle."""
-        if not selection.opened and selection.shown == self._stage.everyone:
+        if not selection.opened and selection.shown == self._scene.everyone:
             return None
-        is_left_out = np.ones(len(self._stage.actors) + 1, bool)
+        is_left_out = np.ones(len(self._scene.objects) + 1, bool)
         is_left_out[[*selection.shown, -1]] = False
-        passed = is_left_out[self._actor_of]
+        passed = is_left_out[self._object_of]
         for number in selection.opened & selection.shown:
             own = slice(self._first[number], self._first[number + 1])
             passed[own] = separates(self._planes[own], camera.eye_m, np.asarray(selection.focus_m))
@@ -191,12 +194,12 @@ class EmbreeRenderer:
         is_hit[hits.triangle] = True
         hit = np.flatnonzero(is_hit[:-1])
         paint = np.empty((len(is_hit), 3))
-        paint[hit] = self._paint[hit] * light(self._normals[hit], camera.axes[2], self._stage.up)[:, None]
+        paint[hit] = self._paint[hit] * light(self._normals[hit], camera.axes[2], self._scene.up)[:, None]
         paint[-1] = BACKGROUND_RGB
         colors = paint.take(hits.triangle, axis=0).astype(np.uint8)
         patterned = np.flatnonzero(self._is_patterned.take(hits.triangle))
         triangle = hits.triangle[patterned]
-        pattern = self._stage.palette.pattern(
+        pattern = self._scene.palette.pattern(
             self._material.take(triangle), self._uv_at(triangle, hits.weights[:, patterned])
         )
         colors[patterned] = paint.take(triangle, axis=0) * pattern
@@ -212,28 +215,28 @@ class EmbreeRenderer:
 
     def _ids(self, camera: Camera, pixels: Ints, hits: _Hits) -> Ids:
         ids = np.full(camera.size_px**2, -1, np.int32)
-        ids[pixels] = self._actor_of.take(hits.triangle)
+        ids[pixels] = self._object_of.take(hits.triangle)
         return ids.reshape(camera.size_px, camera.size_px)
 
-    def _tree(self, actors: frozenset[int]) -> _Tree:
+    def _tree(self, objects: frozenset[int]) -> _Tree:
         """Return the tree over whole objects, built at the first use."""
-        if actors not in self._trees:
+        if objects not in self._trees:
             large = [known for known in self._trees if len(known) > 1]
-            if len(actors) > 1 and len(large) >= _LARGE_TREES:
+            if len(objects) > 1 and len(large) >= _LARGE_TREES:
                 del self._trees[large[0]]
-            self._trees[actors] = self._built(np.flatnonzero(np.isin(self._actor_of, list(actors))))
-        return self._trees[actors]
+            self._trees[objects] = self._built(np.flatnonzero(np.isin(self._object_of, list(objects))))
+        return self._trees[objects]
 
     def _faces_left(
-        self, actors: frozenset[int], camera: Camera, selection: Selection, passed: Flags | None
+        self, objects: frozenset[int], camera: Camera, selection: Selection, passed: Flags | None
     ) -> list[_Tree]:
         """Return a tree over the visible faces of opened objects. The last one is cached, since a view needs it several
         times."""
-        view = (actors, camera.eye_m.tobytes(), selection.focus_m)
-        if passed is None or not actors:
+        view = (objects, camera.eye_m.tobytes(), selection.focus_m)
+        if passed is None or not objects:
             return []
         if self._cut[0] != view:
-            left = np.flatnonzero(np.isin(self._actor_of, list(actors)) & ~passed)
+            left = np.flatnonzero(np.isin(self._object_of, list(objects)) & ~passed)
             self._cut = (view, [self._built(left)] if len(left) else [])
         return self._cut[1]
 

@@ -11,8 +11,8 @@ from threading import RLock
 from scene2hap.scene.capture.cache import MEMORY, FolderCache
 from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.protocol import RendererFactory, made_renderer
+from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.shot_rendering import Photographer
-from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.surroundings import Copies, holders, supports
 from scene2hap.scene.images import Shot
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -30,10 +30,10 @@ class CaptureStats:
     from_folder: int = 0
 
 
-class Studio:
+class LazyPictures:
     """The `ImageSource` of one captured scene.
 
-    It makes the `Stage` and the renderer for the first picture that is not cached.
+    It makes the `RenderScene` and the renderer for the first picture that is not cached.
     """
 
     def __init__(self, scene: SceneSnapshot, config: CaptureConfig, factory: RendererFactory, name: str) -> None:
@@ -48,7 +48,7 @@ class Studio:
 
     def __reduce__(self) -> tuple[object, ...]:
         # A copy in another process renders the same pictures again, since these pictures would be large to send.
-        return (Studio, (self.scene, self.config, self.factory, self.name))
+        return (LazyPictures, (self.scene, self.config, self.factory, self.name))
 
     def image(self, shot: Shot) -> bytes:
         """Return the picture. Copies share one picture."""
@@ -101,30 +101,34 @@ class Studio:
         return [shot for shot in dict.fromkeys(map(self.shared, shots)) if self.find(shot) is None]
 
     @cached_property
-    def stage(self) -> Stage:
+    def render_scene(self) -> RenderScene:
         """The scene prepared for renderers."""
-        return Stage.of(self.scene)
+        return RenderScene.of(self.scene)
 
     @cached_property
     def copies(self) -> Copies:
         """The groups of objects that share pictures."""
-        held_by = holders(self.stage, self.below, self.config.near_share)
+        held_by = holders(self.render_scene, self.below, self.config.near_share)
         return Copies(self.scene.objects, self.below, held_by, self.config.share_copies)
 
     @cached_property
     def below(self) -> tuple[int | None, ...]:
         """The number of the object below each object, None for none."""
-        return supports(self.stage)
+        return supports(self.render_scene)
 
     @cached_property
     def _photographer(self) -> Photographer:
-        renderer = made_renderer(self.factory, self.stage, self.config.antialias)
-        return Photographer(self.stage, renderer, self.config, self.below)
+        renderer = made_renderer(self.factory, self.render_scene, self.config.antialias)
+        return Photographer(self.render_scene, renderer, self.config, self.below)
 
     def _key(self, shot: Shot) -> str:
         """Return a digest of all inputs of the picture; for an isolated image, without the rest of the scene."""
-        number = -1 if shot.subject is None else self.stage.index[shot.subject]
-        seen = self.stage.actors[number].digest if shot.kind == "isolated" else f"{self.stage.digest} {number}"
-        angles = (shot.azimuth_deg, shot.elevation_deg, self.stage.up_axis)
+        number = -1 if shot.subject is None else self.render_scene.index[shot.subject]
+        seen = (
+            self.render_scene.objects[number].digest
+            if shot.kind == "isolated"
+            else f"{self.render_scene.digest} {number}"
+        )
+        angles = (shot.azimuth_deg, shot.elevation_deg, self.render_scene.up_axis)
         content = repr((_FORMAT, self.name, self.config.look, shot.kind, seen, angles))
         return hashlib.sha256(content.encode()).hexdigest()

@@ -19,7 +19,7 @@ from scene2hap.scene.capture.colour_table import BACKGROUND_RGB, light
 from scene2hap.scene.capture.faces import Extents, extents, in_view, planes, separates
 from scene2hap.scene.capture.panda3d_screen import Screen, textured
 from scene2hap.scene.capture.protocol import Ids, Pixels, Selection
-from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.views import Camera
 
 Ints = NDArray[np.int64]
@@ -35,30 +35,30 @@ _MOST_DIRECTIONS = 72
 class Panda3DRenderer:
     """Render a scene by a software rasteriser, faster and without smooth edges. See `Renderer`."""
 
-    def __init__(self, stage: Stage, antialias: bool = False) -> None:
-        self._stage = stage
-        palette = stage.palette
-        counts = [len(actor.triangles_m) for actor in stage.actors]
-        material = np.concatenate([actor.material for actor in stage.actors])
+    def __init__(self, scene: RenderScene, antialias: bool = False) -> None:
+        self._scene = scene
+        palette = scene.palette
+        counts = [len(item.triangles_m) for item in scene.objects]
+        material = np.concatenate([item.material for item in scene.objects])
         # Triangles of one texture are drawn together. Triangles without a texture come first.
         order = np.argsort(np.where(palette.is_patterned[material], material, -1), kind="stable")
         material = material[order]
-        self._actor_of = np.repeat(np.arange(len(counts)), counts)[order]
-        self._triangles_of = np.split(np.argsort(self._actor_of, kind="stable"), np.cumsum(counts)[:-1])
-        corners = np.concatenate([actor.triangles_m for actor in stage.actors])[order]
-        u, v = np.concatenate([actor.uv for actor in stage.actors])[order].transpose(2, 0, 1)
+        self._object_of = np.repeat(np.arange(len(counts)), counts)[order]
+        self._triangles_of = np.split(np.argsort(self._object_of, kind="stable"), np.cumsum(counts)[:-1])
+        corners = np.concatenate([item.triangles_m for item in scene.objects])[order]
+        u, v = np.concatenate([item.uv for item in scene.objects])[order].transpose(2, 0, 1)
         # The texture coordinate v of Panda3D runs up.
         self._corners = np.concatenate((corners, np.stack((u, 1 - v), axis=2)), axis=2)
         self._by_axis = np.ascontiguousarray(corners.transpose(2, 1, 0))
         self._planes = planes(corners)
         self._normals = self._planes[:, :3].astype(np.float32)
         self._paint = palette.rgb[material] * 255
-        digits = np.stack(np.divmod(self._actor_of, _BASE), axis=1) + 1
+        digits = np.stack(np.divmod(self._object_of, _BASE), axis=1) + 1
         self._codes = np.full((len(order), 4), 255, np.uint8)
         self._codes[:, :2] = digits + palette.is_cutout[material, None]
         self._opacity = (digits[:, 1] + palette.is_patterned[material]).astype(np.uint8)
         self._lit_along: dict[bytes, Bytes] = {}
-        self._screen = Screen(stage.diagonal_m)
+        self._screen = Screen(scene.diagonal_m)
         self._painted = {row: self._textured(row) for row in np.flatnonzero(palette.is_patterned).tolist()}
         self._holed = {row: self._textured(row, only_holes=True) for row in np.flatnonzero(palette.is_cutout).tolist()}
         self._paint_row = np.where(palette.is_patterned, np.arange(len(palette.rgb)), -1)[material]
@@ -83,7 +83,7 @@ class Panda3DRenderer:
         groups = _groups(self._paint_row[triangles], self._painted)
         colors = self._lit(camera.axes[2])[triangles]
         image = self._screen.draw(camera, self._corners[triangles], colors, groups, BACKGROUND_RGB)
-        ids = _opacity(image) - 1 if len(self._stage.actors) <= _BASE else self.identify(camera, selection)
+        ids = _opacity(image) - 1 if len(self._scene.objects) <= _BASE else self.identify(camera, selection)
         # Pillow is five times faster than numpy in dropping every fourth byte.
         picture = Image.frombuffer("RGB", image.shape[:2], image, "raw", "BGRX", 0, 1)
         return np.array(picture), ids
@@ -95,7 +95,7 @@ class Panda3DRenderer:
             if len(self._lit_along) >= _MOST_DIRECTIONS:
                 self._lit_along.clear()
             colors = np.empty((len(self._paint), 4), np.uint8)
-            colors[:, :3] = self._paint * light(self._normals, forward, self._stage.up)[:, None]
+            colors[:, :3] = self._paint * light(self._normals, forward, self._scene.up)[:, None]
             colors[:, 3] = self._opacity
             self._lit_along[key] = colors
         return self._lit_along[key]
@@ -103,14 +103,14 @@ class Panda3DRenderer:
     def _shown(self, camera: Camera, selection: Selection) -> Ints:
         """Return the triangles that the selection shows and that can colour a pixel, in the order of drawing."""
         triangles = self._visible(camera, selection.shown)
-        is_shown = np.zeros(len(self._stage.actors), bool)
+        is_shown = np.zeros(len(self._scene.objects), bool)
         is_shown[list(selection.shown)] = True
-        triangles = triangles[is_shown[self._actor_of[triangles]]]
+        triangles = triangles[is_shown[self._object_of[triangles]]]
         if not selection.opened:
             return triangles
-        is_opened = np.zeros(len(self._stage.actors), bool)
+        is_opened = np.zeros(len(self._scene.objects), bool)
         is_opened[list(selection.opened)] = True
-        is_hiding = is_opened[self._actor_of[triangles]]
+        is_hiding = is_opened[self._object_of[triangles]]
         planes_m = self._planes[triangles[is_hiding]]
         is_hiding[is_hiding] = separates(planes_m, camera.eye_m, np.asarray(selection.focus_m))
         return triangles[~is_hiding]
@@ -128,7 +128,7 @@ class Panda3DRenderer:
         return self._view[1]
 
     def _textured(self, row: int, only_holes: bool = False) -> Any:
-        palette = self._stage.palette
+        palette = self._scene.palette
         width, height = int(palette.width[row]), int(palette.height[row])
         texels = palette.texels[palette.start[row] : palette.start[row] + width * height].reshape(height, width, 4)
         if only_holes:

@@ -12,7 +12,7 @@ from scene2hap.errors import ConfigError
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
 from scene2hap.scene.capture.fonts import lettering
 from scene2hap.scene.capture.png import png
-from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.surroundings import shells
 from scene2hap.scene.capture.views import axes_of
 from scene2hap.scene.from_above import NOTHING, HighestSurface
@@ -56,16 +56,16 @@ def plan_view(scene: SceneSnapshot, *, width_px: int = _PLAN_PX) -> bytes:
 
     Faces that reach above four fifths of the scene's height are left out. The front is at the bottom (`axes_of`).
     """
-    stage = Stage.of(scene)
-    right, up, front = axes_of(stage.up_axis)
-    low, high = stage.box_m
+    render_scene = RenderScene.of(scene)
+    right, up, front = axes_of(render_scene.up_axis)
+    low, high = render_scene.box_m
     to_plan = np.stack((right, front))
     corners = np.stack((low, high)) @ to_plan.T
     origin, extent = corners.min(axis=0), np.maximum(np.ptp(corners, axis=0), 1e-9)
     scale = (width_px - 2 * _MARGIN) / extent.max()
     edges = np.ceil(extent * scale).astype(int) + 2 * _MARGIN
     cut = (low @ up) + _CUT * float((high - low) @ up)
-    triangles = np.concatenate([actor.triangles_m for actor in stage.actors]).astype(np.float64)
+    triangles = np.concatenate([item.triangles_m for item in render_scene.objects]).astype(np.float64)
     heights = (triangles @ up).max(axis=1)
     shown = np.flatnonzero(heights <= cut) if (heights <= cut).any() else np.arange(len(heights))
     flat = (triangles[shown] @ to_plan.T - origin) * scale + _MARGIN
@@ -73,13 +73,13 @@ def plan_view(scene: SceneSnapshot, *, width_px: int = _PLAN_PX) -> bytes:
     highest.add(np.concatenate((flat, (triangles[shown] @ up)[..., None]), axis=2), shown)
     pixels = np.full((int(edges[1]) + _TITLE, int(edges[0]), 3), BACKGROUND_RGB, np.uint8)
     seen = highest.top != NOTHING
-    pixels[_TITLE:][seen] = _colors(stage, triangles, up)[highest.top[seen]]
-    pixels[_TITLE:][_outlines(stage, highest)] //= 2
+    pixels[_TITLE:][seen] = _colors(render_scene, triangles, up)[highest.top[seen]]
+    pixels[_TITLE:][_outlines(render_scene, highest)] //= 2
     plan = Image.fromarray(pixels)
     draw = ImageDraw.Draw(plan)
     _write(draw, (_MARGIN, 8), f"{scene.name}, seen from above", 17)
     _draw_scale(draw, scale, plan.width)
-    _write_names(draw, stage, to_plan, origin, scale, plan.size)
+    _write_names(draw, render_scene, to_plan, origin, scale, plan.size)
     return png(np.asarray(plan))
 
 
@@ -94,9 +94,9 @@ def _draw_scale(draw: ImageDraw.ImageDraw, px_per_m: float, width_px: int) -> No
     _write(draw, (left, middle - 13), f"{length_m:g} m", 13)
 
 
-def _outlines(stage: Stage, highest: HighestSurface) -> NDArray[np.bool_]:
+def _outlines(render_scene: RenderScene, highest: HighestSurface) -> NDArray[np.bool_]:
     """Return the pixels whose right or lower neighbour shows another object. White things on white would be unseen."""
-    counts = [len(actor.triangles_m) for actor in stage.actors]
+    counts = [len(item.triangles_m) for item in render_scene.objects]
     owner = np.append(np.repeat(np.arange(len(counts)), counts), NOTHING)[highest.top]
     is_edge = np.zeros(owner.shape, bool)
     is_edge[:, :-1] |= owner[:, :-1] != owner[:, 1:]
@@ -109,20 +109,22 @@ def _write(draw: ImageDraw.ImageDraw, corner: tuple[float, float], text: str, si
     draw.text(corner, shown, fill=_INK, font=font)
 
 
-def _colors(stage: Stage, triangles: NDArray[np.float64], up: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """Return one colour (n, 3) per triangle of a stage: its paint in the middle, darker the steeper the triangle is."""
+def _colors(render_scene: RenderScene, triangles: NDArray[np.float64], up: NDArray[np.float64]) -> NDArray[np.uint8]:
+    """Return one colour (n, 3) per triangle of a scene: its paint in the middle, darker the steeper the triangle is."""
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     lengths = np.maximum(np.linalg.norm(normals, axis=1), 1e-30)
     light = 0.6 + 0.4 * np.abs(normals @ up) / lengths
-    palette = stage.palette
-    paint = [palette.rgb[one.material] * palette.pattern(one.material, one.uv.mean(axis=1)) for one in stage.actors]
+    palette = render_scene.palette
+    paint = [
+        palette.rgb[one.material] * palette.pattern(one.material, one.uv.mean(axis=1)) for one in render_scene.objects
+    ]
     colors: NDArray[np.uint8] = (np.concatenate(paint) * (255 * light[:, None])).astype(np.uint8)
     return colors
 
 
 def _write_names(
     draw: ImageDraw.ImageDraw,
-    stage: Stage,
+    render_scene: RenderScene,
     to_plan: NDArray[np.float64],
     origin: NDArray[np.float64],
     scale: float,
@@ -131,11 +133,11 @@ def _write_names(
     """Write each object's id over it, shifted down until no ids overlap. Walls and floors get no id."""
     written: list[tuple[float, float, float, float]] = []
     names = []
-    for number, actor in enumerate(stage.actors):
-        if number in shells(stage):
+    for number, item in enumerate(render_scene.objects):
+        if number in shells(render_scene):
             continue
-        x, y = (actor.box_m.mean(axis=0) @ to_plan.T - origin) * scale + (_MARGIN, _MARGIN + _TITLE)
-        shown, font = lettering(actor.id, 12)
+        x, y = (item.box_m.mean(axis=0) @ to_plan.T - origin) * scale + (_MARGIN, _MARGIN + _TITLE)
+        shown, font = lettering(item.id, 12)
         width = draw.textlength(shown, font=font)
         left, top = min(max(x - width / 2, 2), max(size_px[0] - width - 2, 2)), y - 7
         while any(left < x1 and x0 < left + width and top < y1 and y0 < top + 14 for x0, y0, x1, y1 in written):

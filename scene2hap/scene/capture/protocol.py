@@ -14,11 +14,11 @@ from scene2hap.common import checks
 from scene2hap.common.calls import misfit
 from scene2hap.errors import ConfigError
 from scene2hap.plugins import Members, lacking
-from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.views import Camera
 
 Ids = NDArray[np.int32]
-"""The object of each pixel (size_px, size_px), as its number in `Stage.actors`; -1 for the background."""
+"""The object of each pixel (size_px, size_px), as its number in `RenderScene.objects`; -1 for the background."""
 
 Pixels = NDArray[np.uint8]
 """Colours (size_px, size_px, 3), sRGB."""
@@ -38,7 +38,7 @@ class Selection:
 
 
 class Renderer(Protocol):
-    """Interface of renderers of a `Stage`. The library makes one call at a time."""
+    """Interface of renderers of a `RenderScene`. The library makes one call at a time."""
 
     def identify(self, camera: Camera, selection: Selection, /) -> Ids:
         """Return the object at the middle of each pixel."""
@@ -49,8 +49,8 @@ class Renderer(Protocol):
         ...
 
 
-RendererFactory = Callable[[Stage, bool], Renderer]
-"""Function that builds a renderer for a `Stage`; the flag requests smooth edges."""
+RendererFactory = Callable[[RenderScene, bool], Renderer]
+"""Function that builds a renderer for a `RenderScene`; the flag requests smooth edges."""
 
 _RENDERER: Members = {"identify": ("camera", "selection"), "draw": ("camera", "selection")}
 
@@ -70,12 +70,12 @@ def drawn(renderer: Renderer, camera: Camera, selection: Selection) -> tuple[Pix
     return given
 
 
-def made_renderer(factory: RendererFactory, stage: Stage, smooth: bool) -> Renderer:
+def made_renderer(factory: RendererFactory, scene: RenderScene, smooth: bool) -> Renderer:
     """Build a renderer. Raises: ConfigError: the factory returned no `Renderer`."""
     name = getattr(factory, "__qualname__", repr(factory))
-    if misfit(factory, (stage, smooth), {}):
-        raise ConfigError(f"{name}{signature(factory)} must take (stage, smooth) and give a Renderer.")
-    renderer = factory(stage, smooth)
+    if misfit(factory, (scene, smooth), {}):
+        raise ConfigError(f"{name}{signature(factory)} must take (scene, smooth) and give a Renderer.")
+    renderer = factory(scene, smooth)
     if problem := lacking(renderer, _RENDERER):
         raise ConfigError(f"{name} gave no Renderer: {problem}")
     return renderer

@@ -12,7 +12,7 @@ from scene2hap.scene.capture.culling import Culler
 from scene2hap.scene.capture.outline import mark
 from scene2hap.scene.capture.png import png
 from scene2hap.scene.capture.protocol import Renderer, Selection, drawn
-from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.views import Camera, frame
 from scene2hap.scene.images import Shot
 
@@ -23,9 +23,9 @@ _LEAST_FACTOR = 1.25
 
 @dataclass(frozen=True, eq=False)
 class Photographer:
-    """Producer of pictures of a `Stage`; equal input gives equal bytes. `below` : the stage's `supports`."""
+    """Producer of pictures of a `RenderScene`; equal input gives equal bytes. `below` : the scene's `supports`."""
 
-    stage: Stage
+    scene: RenderScene
     renderer: Renderer
     config: CaptureConfig
     below: tuple[int | None, ...]
@@ -33,22 +33,22 @@ class Photographer:
     @cached_property
     def culler(self) -> Culler:
         """The `Culler` that selects the objects of each picture."""
-        return Culler(self.stage, self.renderer, self.config.near_share, self.config.hidden_share, self.below)
+        return Culler(self.scene, self.renderer, self.config.near_share, self.config.hidden_share, self.below)
 
     def aim(self, shot: Shot) -> tuple[Camera, Selection]:
         """Return the camera, and its selection of objects."""
         config = self.config
-        angles = (shot.azimuth_deg, shot.elevation_deg, self.stage.up_axis)
+        angles = (shot.azimuth_deg, shot.elevation_deg, self.scene.up_axis)
         if shot.subject is None:
-            points = np.concatenate([actor.points_m for actor in self.stage.actors])
+            points = np.concatenate([item.points_m for item in self.scene.objects])
             camera = frame(points, *angles, _SCENE_FILL, config.size_px)
             return camera, self.culler.overview(camera)
-        target = self.stage.index[shot.subject]
-        actor = self.stage.actors[target]
-        close = frame(actor.points_m, *angles, config.fill, config.size_px)
+        target = self.scene.index[shot.subject]
+        item = self.scene.objects[target]
+        close = frame(item.points_m, *angles, config.fill, config.size_px)
         if shot.kind == "isolated":
             return close, Selection(frozenset({target}))
-        widest = max(_LEAST_FACTOR, _LEAST_FACTOR * self.stage.diagonal_m / max(actor.diagonal_m, 1e-9))
+        widest = max(_LEAST_FACTOR, _LEAST_FACTOR * self.scene.diagonal_m / max(item.diagonal_m, 1e-9))
         wide = close.widened(min(config.context_factor, widest))
         return wide, self.culler.around(target, close, wide)
 
@@ -57,6 +57,6 @@ class Photographer:
         camera, selection = self.aim(shot)
         picture, ids = drawn(self.renderer, camera, selection)
         if shot.kind == "context" and shot.subject is not None:
-            is_target = ids == self.stage.index[shot.subject]
+            is_target = ids == self.scene.index[shot.subject]
             mark(picture, is_target, self.config.outline_px, self.config.outline_rgb)
         return png(picture)

@@ -1,4 +1,4 @@
-"""Spatial relations of the objects of a `Stage`: supports, neighbours, containers, walls and rooms.
+"""Spatial relations of the objects of a `RenderScene`: supports, neighbours, containers, walls and rooms.
 
 All relations but supports are computed from AABBs, in milliseconds and without a renderer.
 """
@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from scene2hap.common.arrays import Floats, Floats32
-from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.copies import copy_key
 from scene2hap.scene.geometry import distances, heights_at
 from scene2hap.scene.objects import VERTICAL, SceneObject
@@ -28,37 +28,37 @@ _FEET, _INSET = 5, 0.1
 _SUNK = 0.2
 
 
-def shells(stage: Stage) -> frozenset[int]:
+def shells(scene: RenderScene) -> frozenset[int]:
     """Return walls, floors, ceilings and rooms.
 
     A shell spans `_SHELL_SPAN` of the scene along two axes, or is a piece of wall. A piece of wall spans this share of
     the scene's height, is thin, and is at the scene's boundary.
     """
-    up = VERTICAL[stage.up_axis]
-    low, high = stage.box_m
+    up = VERTICAL[scene.up_axis]
+    low, high = scene.box_m
     extent = np.maximum(high - low, 1e-12)
     found = set()
-    for number, actor in enumerate(stage.actors):
-        size = np.ptp(actor.box_m, axis=0)
+    for number, item in enumerate(scene.objects):
+        size = np.ptp(item.box_m, axis=0)
         is_spanning = size >= _SHELL_SPAN * extent
         is_thin = size <= _THIN * size[up]
-        is_at_rim = (actor.box_m[1] <= low + _RIM * extent) | (actor.box_m[0] >= high - _RIM * extent)
+        is_at_rim = (item.box_m[1] <= low + _RIM * extent) | (item.box_m[0] >= high - _RIM * extent)
         is_at_rim[up] = False
         if is_spanning.sum() >= 2 or (is_spanning[up] and (is_thin & is_at_rim).any()):
             found.add(number)
     return frozenset(found)
 
 
-def near(stage: Stage, target: int, share: float) -> frozenset[int]:
+def near(scene: RenderScene, target: int, share: float) -> frozenset[int]:
     """Return the objects whose box is within `share` of the target's diagonal from the target's box."""
-    reach = share * stage.actors[target].diagonal_m
-    return frozenset(np.flatnonzero(distances(stage.boxes_m, stage.boxes_m[target]) <= reach).tolist()) - {target}
+    reach = share * scene.objects[target].diagonal_m
+    return frozenset(np.flatnonzero(distances(scene.boxes_m, scene.boxes_m[target]) <= reach).tolist()) - {target}
 
 
-def containers(stage: Stage, target: int) -> frozenset[int]:
+def containers(scene: RenderScene, target: int) -> frozenset[int]:
     """Return the objects whose box contains nearly all of the target's box."""
-    low, high = stage.boxes_m[target]
-    common = np.minimum(stage.boxes_m[:, 1], high) - np.maximum(stage.boxes_m[:, 0], low)
+    low, high = scene.boxes_m[target]
+    common = np.minimum(scene.boxes_m[:, 1], high) - np.maximum(scene.boxes_m[:, 0], low)
     # Along an axis without extent, a flat target is either inside or outside.
     extent = high - low
     share = np.where(extent > 0, common / np.where(extent > 0, extent, 1.0), common >= 0)
@@ -81,13 +81,13 @@ class _Faces(NamedTuple):
         return highest
 
 
-def supports(stage: Stage) -> tuple[int | None, ...]:
+def supports(scene: RenderScene) -> tuple[int | None, ...]:
     """Return the support of each object: the first object below most of its footprint; None for none."""
-    up = VERTICAL[stage.up_axis]
+    up = VERTICAL[scene.up_axis]
     order = [*(axis for axis in range(3) if axis != up), up]
-    turned = [actor.triangles_m[:, :, order] for actor in stage.actors]
+    turned = [item.triangles_m[:, :, order] for item in scene.objects]
     faces = [_Faces(each, each.min(axis=1), each.max(axis=1)) for each in turned]
-    boxes = stage.boxes_m[:, :, order]
+    boxes = scene.boxes_m[:, :, order]
     return tuple(_support(faces, boxes, number) for number in range(len(faces)))
 
 
@@ -111,12 +111,12 @@ def _support(faces: Sequence[_Faces], boxes: Floats, number: int) -> int | None:
     return int(np.bincount(found).argmax()) if len(found) else None
 
 
-def holders(stage: Stage, below: Sequence[int | None], share: float) -> tuple[frozenset[int], ...]:
+def holders(scene: RenderScene, below: Sequence[int | None], share: float) -> tuple[frozenset[int], ...]:
     """Return, for each object that does not stand on its support, the objects near it (`near`); else none.
 
     A picture frame hangs on one of these, and the floor far below it says nothing about where it hangs.
     """
-    beside = (near(stage, number, share) for number in range(len(stage.actors)))
+    beside = (near(scene, number, share) for number in range(len(scene.objects)))
     return tuple(frozenset() if under in by else by for under, by in zip(below, beside, strict=True))
 
 

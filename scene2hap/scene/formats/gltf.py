@@ -26,7 +26,7 @@ from scene2hap.scene.formats.gltf_container import GltfFile, Json, mapping, natu
 from scene2hap.scene.formats.gltf_deformation import Deformation, Deformations
 from scene2hap.scene.formats.gltf_draco import DRACO, draco
 from scene2hap.scene.formats.gltf_instances import INSTANCES, instances
-from scene2hap.scene.formats.gltf_materials import GltfMaterials, Paint
+from scene2hap.scene.formats.gltf_materials import GltfMaterials, TexturedMaterial
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.looks.vertex_colors import painted, srgb
@@ -198,7 +198,12 @@ class _Reader:
         return replace(piece, appearance=looks)
 
     def _looks(
-        self, paint: Paint | None, faces: NDArray[np.int64], n_points: int, attribute: _Attribute, is_colored: bool
+        self,
+        paint: TexturedMaterial | None,
+        faces: NDArray[np.int64],
+        n_points: int,
+        attribute: _Attribute,
+        is_colored: bool,
     ) -> Appearance | None:
         """Return the looks of a primitive; None if the file has none."""
 

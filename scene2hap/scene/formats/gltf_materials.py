@@ -27,7 +27,7 @@ Affine = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Paint:
+class TexturedMaterial:
     """A material, its set of texture coordinates, and their transform."""
 
     material: FaceMaterial
@@ -41,19 +41,19 @@ class GltfMaterials:
 
     file: GltfFile
     textures: TextureFiles
-    _paints: dict[int, Paint] = field(default_factory=dict)
+    _paints: dict[int, TexturedMaterial] = field(default_factory=dict)
 
-    def paint(self, number: int, row: Json) -> Paint:
+    def paint(self, number: int, row: Json) -> TexturedMaterial:
         """Return the paint of row `number` of the materials."""
         if number not in self._paints:
             try:
                 self._paints[number] = self._paint(row, f"materials[{number}]")
             except SceneError as error:
                 self.textures.refuse(f"materials[{number}]", str(error))
-                self._paints[number] = Paint(FaceMaterial((1.0, 1.0, 1.0, 1.0)))
+                self._paints[number] = TexturedMaterial(FaceMaterial((1.0, 1.0, 1.0, 1.0)))
         return self._paints[number]
 
-    def _paint(self, row: Json, place: str) -> Paint:
+    def _paint(self, row: Json, place: str) -> TexturedMaterial:
         pbr = mapping(row.get("pbrMetallicRoughness"))
         color, info = pbr.get("baseColorFactor"), pbr.get("baseColorTexture")
         older = mapping(mapping(row.get("extensions")).get("KHR_materials_pbrSpecularGlossiness"))
@@ -68,16 +68,16 @@ class GltfMaterials:
         rgba = (r, g, b, min(max(a, 0.0), 1.0) if keeps_alpha else 1.0)
         name = str(row.get("name", ""))
         if not isinstance(info, dict):
-            return Paint(FaceMaterial(rgba, name=name))
+            return TexturedMaterial(FaceMaterial(rgba, name=name))
         place = f"{place}, its texture"
         try:
             texture = self._texture(info.get("index"), place, keeps_alpha)
             transform = mapping(mapping(info.get("extensions")).get("KHR_texture_transform"))
             uv_set = natural(transform.get("texCoord", info.get("texCoord", 0)), f"{place}.texCoord")
-            return Paint(FaceMaterial(rgba, texture, name), uv_set, _affine(transform, place))
+            return TexturedMaterial(FaceMaterial(rgba, texture, name), uv_set, _affine(transform, place))
         except SceneError as error:
             self.textures.refuse(place, str(error))
-            return Paint(FaceMaterial(rgba, name=name))
+            return TexturedMaterial(FaceMaterial(rgba, name=name))
 
     def _texture(self, number: object, place: str, keeps_alpha: bool) -> EncodedTexture | None:
         row = self.file.row("textures", number, place)

@@ -55,7 +55,7 @@ class _Evidence(NamedTuple):
     usual: Usual
 
 
-class Doubt(NamedTuple):
+class UnitDoubt(NamedTuple):
     """Why sizes cannot be metres, and the likely unit: in metres, as text, and its name, empty if it has none.
 
     `of_model_m` is the likely unit if the file holds a single model and no room, empty if it is the same.
@@ -94,7 +94,7 @@ def warn_if_implausible(
     warn_of(f"{found.sentence} {remedy}", UnitWarning)
 
 
-def implausible(snapshot: SceneData, unit_m: float = 1.0) -> Doubt | None:
+def implausible(snapshot: SceneData, unit_m: float = 1.0) -> UnitDoubt | None:
     """Return why the sizes of a scene, read at `unit_m` metres per unit, cannot be metres; None if they can."""
     up = VERTICAL[snapshot.up_axis]
     bounds = np.array([item.bounds_m for item in snapshot.objects])
@@ -116,7 +116,7 @@ def implausible(snapshot: SceneData, unit_m: float = 1.0) -> Doubt | None:
     of_model = ""
     if found is not by_name and factor != _OF_MODELS and float(extents.max()) * _OF_MODELS <= _LARGEST_MODEL_M:
         of_model = f"{_OF_MODELS * unit_m:g}"
-    return Doubt(f"sizes in {snapshot.name!r} are implausible as metres: {reason}.", text, name, of_model)
+    return UnitDoubt(f"sizes in {snapshot.name!r} are implausible as metres: {reason}.", text, name, of_model)
 
 
 def _ground_m(bounds_m: NDArray[np.float64], is_floor: NDArray[np.bool_], up: int) -> float:

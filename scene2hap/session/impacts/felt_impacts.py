@@ -38,7 +38,7 @@ from scene2hap.session.user_profile import UserProfile
 from scene2hap.session.worker_threads import WorkerPool
 
 if TYPE_CHECKING:
-    from scene2hap.session.impacts.struck_ahead import StruckAhead
+    from scene2hap.session.impacts.preparation import ImpactPreparation
 
 PEAK = 10 ** (-TACTILE_HEADROOM_DB / 20)
 LOUDEST_M_S2 = 1000.0
@@ -353,8 +353,8 @@ class Impacts:
 
         self._waiting.append((impact, self._workers.submit(work)))
 
-    def _prepared_ahead(self) -> StruckAhead:
-        from scene2hap.session.impacts.struck_ahead import StruckAhead  # by need: the physical models
+    def _prepared_ahead(self) -> ImpactPreparation:
+        from scene2hap.session.impacts.preparation import ImpactPreparation  # by need: the physical models
 
         # No reference to this object: only the garbage collector could free such a cycle.
-        return StruckAhead(self._config.propagation, self._state, self._workers.submit)
+        return ImpactPreparation(self._config.propagation, self._state, self._workers.submit)

@@ -1,7 +1,7 @@
 """Gains of an impact on an object at each hand, by the model in use.
 
 A live field gives the gains at once (`PointField`), and so does a scene that was prepared around the touched objects
-(`struck_ahead`). Other models prepare a field for the impact, with a small source on the struck point. The gains
+(`preparation`). Other models prepare a field for the impact, with a small source on the struck point. The gains
 are relative to that point, so that the mass of the source and the stiffness of its contact have no effect.
 """
 

@@ -23,7 +23,7 @@ from scene2hap.render.bursts import Bursts, Fade, PlannedBurst
 from scene2hap.render.limiter import soft_limit
 from scene2hap.render.loop_bank import Slot, SlotBank, position_s
 from scene2hap.render.mixer import Mixer
-from scene2hap.render.passage import Course, Passage, Running
+from scene2hap.render.transition import Running, Transition, TransitionCurve
 from scene2hap.session.config import MIN_RAMP_S, SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.mix.hand_limits import HandLimits
@@ -294,34 +294,34 @@ class Playback:
         self._places[row] = _Place(bank, slot, peaks)
         self._routes.clear()
 
-    def pass_over(
+    def start_transition(
         self,
         row: LoopRow,
         of: LoopRow,
         at_frame: int,
         lasts_s: float,
-        course: Course,
+        course: TransitionCurve,
         since: Running,
-        after: Passage | None,
-    ) -> Passage | None:
-        """Add a row that plays another row once while it starts or stops, from a frame on; see `Passage`.
+        after: Transition | None,
+    ) -> Transition | None:
+        """Add a row that plays another row once while it starts or stops, from a frame on; see `Transition`.
 
         Returns None if the other row is still being prepared.
         """
         if of in self._coming:
             return None
         loop = self._prepared(of)
-        passage = Passage(loop.bank, self._tactile(at_frame), lasts_s, course, since, after)
-        self._let_in(row, passage, loop.peaks, 1)
-        return passage
+        transition = Transition(loop.bank, self._tactile(at_frame), lasts_s, course, since, after)
+        self._let_in(row, transition, loop.peaks, 1)
+        return transition
 
-    def running(self, passage: Passage, at_frame: int) -> Running:
-        """Speed and amplitude of a passage at a frame."""
-        return passage.running(self._tactile(at_frame))
+    def running(self, transition: Transition, at_frame: int) -> Running:
+        """Speed and amplitude of a transition at a frame."""
+        return transition.running(self._tactile(at_frame))
 
-    def end_frame(self, passage: Passage) -> int:
-        """The frame at which a passage ends."""
-        return -(-passage.end * self._config.sample_rate_hz // self._tactile_rate_hz)
+    def end_frame(self, transition: Transition) -> int:
+        """The frame at which a transition ends."""
+        return -(-transition.end * self._config.sample_rate_hz // self._tactile_rate_hz)
 
     def _tactile(self, frame: int) -> int:
         return frame * self._tactile_rate_hz // self._config.sample_rate_hz

@@ -10,7 +10,7 @@ import zlib
 from dataclasses import dataclass
 
 from scene2hap.contact_needs import meets
-from scene2hap.render.passage import STEADY, STILL, Course, Passage, Running
+from scene2hap.render.transition import STEADY, STILL, Running, Transition, TransitionCurve
 from scene2hap.session.mix.playback import Playback
 from scene2hap.session.mix.sources import LoopRow, Source, SourceProgress, Sources
 from scene2hap.session.scene_state import SceneState
@@ -18,7 +18,7 @@ from scene2hap.session.scene_state import SceneState
 
 @dataclass(frozen=True, eq=False)
 class _Passing:
-    passage: Passage
+    transition: Transition
     end_frame: int
 
 
@@ -121,7 +121,7 @@ class Switching:
     def running(self, source_id: str) -> Running:
         """Speed and amplitude of a source that is on, or that still stops."""
         passing = self._passing.get(source_id)
-        return STEADY if passing is None else self._playback.running(passing.passage, self._playback.now)
+        return STEADY if passing is None else self._playback.running(passing.transition, self._playback.now)
 
     def progress(self, source_id: str) -> SourceProgress:
         """How far a source is in its start or stop and in its cycle. Raises: UnknownObject."""
@@ -193,7 +193,7 @@ class Switching:
             before = None  # that of another state, which ended with it, or of a game that was replaced
         if since is None:
             at_rest = STILL if goes_up else STEADY
-            since = at_rest if before is None else self._playback.running(before.passage, now)
+            since = at_rest if before is None else self._playback.running(before.transition, now)
         self._sources.let_pass(source_id, None)
         inferred = source.inferred.get(source.state)
         lasts_s = 0.0 if inferred is None else inferred.start_up_s if goes_up else inferred.wind_down_s
@@ -201,11 +201,13 @@ class Switching:
         if inferred is not None and lasts_s > 0.0 and not is_there:
             steady = source.row
             row = LoopRow(source_id, source.state, steady.loop)
-            course = Course(goes_up, inferred.spins, steady.loop.start_up if goes_up else steady.loop.wind_down)
-            after = None if before is None else before.passage
-            passage = self._playback.pass_over(row, steady, now, lasts_s, course, since, after)
-            if passage is not None:
-                self._passing[source_id] = _Passing(passage, self._playback.end_frame(passage))
+            course = TransitionCurve(
+                goes_up, inferred.spins, steady.loop.start_up if goes_up else steady.loop.wind_down
+            )
+            after = None if before is None else before.transition
+            transition = self._playback.start_transition(row, steady, now, lasts_s, course, since, after)
+            if transition is not None:
+                self._passing[source_id] = _Passing(transition, self._playback.end_frame(transition))
                 self._sources.let_pass(source_id, row)
         self._playback.change_rows(self._sources.rows(), now)
 

@@ -327,7 +327,7 @@ def test_settings_of_a_built_in_converter_are_told_without_reading_installed_pac
     assert converter_settings(Adaptive(q=3.0))["kind"] == "adaptive"
 
 
-class Guest:
+class InstalledPlugin:
     """A converter object without a registered kind."""
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
@@ -335,10 +335,10 @@ class Guest:
 
 
 def test_converter_object_must_be_given_again() -> None:
-    baked = bake(room("desk_fan"), {"tactile": Guest()})
-    with pytest.raises(ConfigError, match="test_fingerprints:Guest"):
+    baked = bake(room("desk_fan"), {"tactile": InstalledPlugin()})
+    with pytest.raises(ConfigError, match="test_fingerprints:InstalledPlugin"):
         rebake(baked)
-    assert remade(baked, {"tactile": Guest()})[1] == {}
+    assert remade(baked, {"tactile": InstalledPlugin()})[1] == {}
 
 
 @pytest.mark.parametrize(

@@ -85,7 +85,7 @@ SCENES = {
         ),
         group("Environment", FLOOR, *WALLS),
     ),
-    "Unreal's actors": (
+    "Unreal's objects": (
         "BP_Chair_C_1, BP_Lamp_C_3, Floor_4",
         group(
             "World",

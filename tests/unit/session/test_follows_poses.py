@@ -169,7 +169,7 @@ def test_a_scaled_model_keeps_its_declaration() -> None:
 
 
 def test_middles_are_of_the_box_wherever_the_origin_is_and_also_without_a_body() -> None:
-    class Middles(Air):
+    class BoxCentres(Air):
         def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> Any:
             assert "ghost" not in network.bodies
             self.middle_m = network.middles_m["ghost"]
@@ -179,7 +179,7 @@ def test_middles_are_of_the_box_wherever_the_origin_is_and_also_without_a_body()
     scene, bundle = table_with_two_phones()
     above = np.array([(0, 0, 0), (0.2, 0, 0), (0, 0.4, 0), (0, 0, 0.6)], dtype=float)
     ghost = SceneObject("ghost", pose=Pose.from_yaw((1.0, 2.0, 3.0), np.pi), geometry=TriMesh(above, FACES))
-    model = Middles()
+    model = BoxCentres()
     with pytest.warns(SceneWarning, match="ghost"):
         HapticSession(
             replace(scene, objects=(*scene.objects, ghost)), bundle, {"propagation": model, "prepare": "blocking"}

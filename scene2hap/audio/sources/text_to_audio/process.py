@@ -36,7 +36,7 @@ class CannotStart(BackendUnavailable):
 
 
 @dataclass(frozen=True)
-class Allowance:
+class ProgramLimits:
     """Limits of a program: running time [s], and written data including its output [bytes]."""
 
     timeout_s: float
@@ -57,7 +57,7 @@ def scrubbed(text: str, variables: Mapping[str, str]) -> str:
     return text
 
 
-def run(command: Sequence[str], folder: Path, allowance: Allowance, variables: Mapping[str, str]) -> None:
+def run(command: Sequence[str], folder: Path, allowance: ProgramLimits, variables: Mapping[str, str]) -> None:
     """Run a command to its end; it must write all files into `folder`.
 
     Raises: CannotStart; BackendUnavailable: it failed, took too long or wrote too much. The message ends with the
@@ -88,7 +88,7 @@ def run(command: Sequence[str], folder: Path, allowance: Allowance, variables: M
         raise BackendUnavailable(f"{name} {fate}. It said last: {_last_words(log, variables)}", retryable=False)
 
 
-def _watched(process: subprocess.Popen[bytes], folder: Path, allowance: Allowance) -> str:
+def _watched(process: subprocess.Popen[bytes], folder: Path, allowance: ProgramLimits) -> str:
     """Wait for the end of a program. Returns: the limit that it broke; "" if none."""
     deadline = time.monotonic() + allowance.timeout_s
     while True:

@@ -18,7 +18,7 @@ from scene2hap.audio.select import MIN_DURATION_S
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES, how_many
 from scene2hap.audio.sources.disk_cache import MAX_CLIP_S, Store, digest, plain_line
 from scene2hap.audio.sources.text_to_audio.contract import Reply, Request, read_file, read_reply
-from scene2hap.audio.sources.text_to_audio.process import Allowance, CannotStart, environment, run, scrubbed
+from scene2hap.audio.sources.text_to_audio.process import CannotStart, ProgramLimits, environment, run, scrubbed
 from scene2hap.common import checks
 from scene2hap.common.calls import not_pickled
 from scene2hap.common.settings import cache_folder
@@ -75,7 +75,7 @@ class TextToAudio:
         self._identity = list(command) if command else [f"runner:{runner}", *options]
         self._count = how_many("count", count)
         self._duration_s = float(duration_s)
-        self._allowance = Allowance(float(timeout_s), int(max_bytes))
+        self._allowance = ProgramLimits(float(timeout_s), int(max_bytes))
         self._keep_env = tuple(keep_env)
         self._store = Store(cache if cache is not None else cache_folder("text_to_audio"))
         self._turn = threading.Lock()

@@ -41,7 +41,7 @@ _CLIPS = ("clips", "clipSets")
 
 
 @dataclass(frozen=True)
-class _Home:
+class _BaseFolder:
     """The base of relative names in a layer: a folder, or a folder within an archive."""
 
     folder: Path | str
@@ -67,7 +67,7 @@ class Layers:
         self.n_bytes: int = 0
         # usd-core frees an anonymous layer with its last reference.
         self._kept: list[Any] = []
-        self._homes: dict[str, _Home] = {}
+        self._folders: dict[str, _BaseFolder] = {}
         self._names: dict[str, str] = {}
         self._known: dict[object, str] = {}
         self._refused: dict[str, SceneError | None] = {}
@@ -98,15 +98,15 @@ class Layers:
     def texture(self, spec: Any, place: str, *, keeps_alpha: bool) -> EncodedTexture | None:
         """Return the image that an attribute spec names by its default. If it is refused: None, and the reason is
         recorded."""
-        home, asset = self._homes.get(spec.layer.identifier), spec.default
+        base, asset = self._folders.get(spec.layer.identifier), spec.default
         name = asset.path.strip().replace("\\", "/").replace("<UDIM>", "1001") if asset else ""
-        if home is None or not name:
+        if base is None or not name:
             return None
-        if home.archive is not None:
-            archive, entry = home.archive, posixpath.normpath(posixpath.join(str(home.folder), name))
+        if base.archive is not None:
+            archive, entry = base.archive, posixpath.normpath(posixpath.join(str(base.folder), name))
             return self.textures.named(f"{archive.path.name}/{entry}", lambda: archive.read(entry), keeps_alpha)
         if not _SCHEME.match(name):
-            name = _relative(os.path.join(home.folder, name), self.textures.folder).replace("%", "%25")
+            name = _relative(os.path.join(base.folder, name), self.textures.folder).replace("%", "%25")
         return self.textures.from_file(name, place, keeps_alpha=keeps_alpha)
 
     # -- opening -----------------------------------------------------------------------------------------------------
@@ -115,18 +115,18 @@ class Layers:
         """Return the anonymous identifier of the layer in an allowed file."""
         if path not in self._known:
             check_file(path)
-            home = _Home(path.parent)
+            base = _BaseFolder(path.parent)
             if path.suffix.lower() == ".usdz":
                 archive = Archive(path)
-                home = _Home(posixpath.dirname(archive.first), archive)
+                base = _BaseFolder(posixpath.dirname(archive.first), archive)
                 self._known[(archive, archive.first)] = self._known[path] = self._open(
-                    f"{path}[{archive.first}]", f"{path.name}/{archive.first}", home, path.stat().st_size
+                    f"{path}[{archive.first}]", f"{path.name}/{archive.first}", base, path.stat().st_size
                 )
             else:
-                self._known[path] = self._open(str(path), path.name, home, path.stat().st_size)
+                self._known[path] = self._open(str(path), path.name, base, path.stat().st_size)
         return self._known[path]
 
-    def _open(self, where: str, name: str, home: _Home, n_bytes: int) -> str:
+    def _open(self, where: str, name: str, base: _BaseFolder, n_bytes: int) -> str:
         self.n_bytes += n_bytes
         if self.n_bytes > MAX_LAYER_BYTES:
             raise SceneError(
@@ -142,7 +142,7 @@ class Layers:
         if layer is None:
             raise SceneFormatError(f"{name!r} cannot be read as USD: it is not what its name says.")
         self._kept.append(layer)
-        self._homes[layer.identifier], self._names[layer.identifier] = home, name
+        self._folders[layer.identifier], self._names[layer.identifier] = base, name
         self._to_visit.append(layer)
         return str(layer.identifier)
 
@@ -150,9 +150,9 @@ class Layers:
 
     def _rewrite(self, layer: Any) -> None:
         """Replace every name of another layer by an identifier in memory."""
-        home = self._homes[layer.identifier]
+        base = self._folders[layer.identifier]
         if layer.subLayerPaths:
-            names = [self._identifier(str(name), home, "a list of sublayers") for name in layer.subLayerPaths]
+            names = [self._identifier(str(name), base, "a list of sublayers") for name in layer.subLayerPaths]
             for name in names:
                 if (refusal := self._refused.get(name)) is not None:
                     raise refusal
@@ -177,7 +177,7 @@ class Layers:
             keys = prim.ListInfoKeys()
             for key in ("references", "payload"):
                 if key in keys:
-                    self._rewrite_arcs(prim, key, home)
+                    self._rewrite_arcs(prim, key, base)
             for key in ("inheritPaths", "specializes"):
                 for path in prim.GetInfo(key).GetAppliedItems() if key in keys else ():
                     self._composition.add_arc(own, "", path)
@@ -188,12 +188,12 @@ class Layers:
             to_visit += (each for group in variants for each in group)
         self._allow(0, n_prims)
 
-    def _rewrite_arcs(self, prim: Any, key: str, home: _Home) -> None:
+    def _rewrite_arcs(self, prim: Any, key: str, base: _BaseFolder) -> None:
         place = f"prim {prim.path}"
         own = (prim.layer.identifier, prim.path)
 
         def moved(item: Any) -> Any:
-            found = self._identifier(item.assetPath, home, place) if item.assetPath else ""
+            found = self._identifier(item.assetPath, base, place) if item.assetPath else ""
             if key == "references":
                 return Sdf.Reference(found, item.primPath, item.layerOffset, item.customData)
             return Sdf.Payload(found, item.primPath, item.layerOffset)
@@ -209,13 +209,13 @@ class Layers:
             self._composition.add_arc(own, item.assetPath, item.primPath)
         prim.SetInfo(key, edits)
 
-    def _identifier(self, asset: str, home: _Home, place: str) -> str:
+    def _identifier(self, asset: str, base: _BaseFolder, place: str) -> str:
         """Return the anonymous identifier of the layer that `place` names `asset`. If refused: one that finds
         nothing."""
-        if (home, asset) not in self._known:
+        if (base, asset) not in self._known:
             refusal: SceneError | None
             try:
-                identifier, refusal = self._found(asset, home, place), None
+                identifier, refusal = self._found(asset, base, place), None
             except SceneFormatError:
                 raise
             except SceneError as error:
@@ -223,10 +223,10 @@ class Layers:
             if not identifier:
                 identifier = _REFUSED.format(len(self._refused))
                 self._refused[identifier] = refusal
-            self._known[(home, asset)] = identifier
-        return self._known[(home, asset)]
+            self._known[(base, asset)] = identifier
+        return self._known[(base, asset)]
 
-    def _found(self, asset: str, home: _Home, place: str) -> str:
+    def _found(self, asset: str, base: _BaseFolder, place: str) -> str:
         name = asset.strip().replace("\\", "/")
         suffix = os.path.splitext(name)[1].lower()
         if suffix in _LOOKS:
@@ -234,11 +234,11 @@ class Layers:
             return ""
         if name.startswith("`"):
             raise SceneError(f"{place} names a layer by the expression {name!r}. Flatten the scene (usdcat --flatten).")
-        if home.archive is not None:
-            return self._entry(name, home.archive, str(home.folder), place)
+        if base.archive is not None:
+            return self._entry(name, base.archive, str(base.folder), place)
         if suffix not in _SUFFIXES and not _SCHEME.match(name):
             raise SceneError(f"{place} names {name!r}; layers that are read end in {', '.join(_SUFFIXES)}.")
-        path = self._inside(name, Path(home.folder), place)
+        path = self._inside(name, Path(base.folder), place)
         with usable_name(name, place):
             exists = is_there(path)
             if not exists and not name.startswith(("./", "../", "/")):
@@ -263,10 +263,10 @@ class Layers:
                 f"that ends in {', '.join(_SUFFIXES[:3])}. Make the archive again by usdzip."
             )
         if (archive, entry) not in self._known:
-            home = _Home(posixpath.dirname(entry), archive)
+            base = _BaseFolder(posixpath.dirname(entry), archive)
             # The archive's bytes were counted with its root layer.
             self._known[(archive, entry)] = self._open(
-                f"{archive.path}[{entry}]", f"{archive.path.name}/{entry}", home, 0
+                f"{archive.path}[{entry}]", f"{archive.path.name}/{entry}", base, 0
             )
         return self._known[(archive, entry)]
 

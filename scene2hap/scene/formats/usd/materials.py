@@ -28,7 +28,7 @@ _MAX_NODES_OF_ST = 4
 
 
 @dataclass(frozen=True, eq=False)
-class _Paint:
+class _TexturedMaterial:
     """A material, the primvar of its texture coordinates, and their transform (2, 3)."""
 
     material: FaceMaterial
@@ -41,7 +41,7 @@ class UsdMaterials:
 
     def __init__(self, layers: Layers) -> None:
         self._layers, self._textures = layers, layers.textures
-        self._paints: dict[Any, _Paint | None] = {}
+        self._paints: dict[Any, _TexturedMaterial | None] = {}
 
     def bound(self, prim: Any) -> Any:
         """Return the material bound to a prim or to one above it (`UsdShade.Material`, false if there is none)."""
@@ -96,7 +96,7 @@ class UsdMaterials:
 
     # -- materials ---------------------------------------------------------------------------------------------------
 
-    def _paint(self, bound: Any) -> _Paint | None:
+    def _paint(self, bound: Any) -> _TexturedMaterial | None:
         path = bound.GetPath()
         if path not in self._paints:
             try:
@@ -107,7 +107,7 @@ class UsdMaterials:
                 self._paints[path] = None
         return self._paints[path]
 
-    def _read(self, bound: Any) -> _Paint | None:
+    def _read(self, bound: Any) -> _TexturedMaterial | None:
         shader = bound.ComputeSurfaceSource()[0]
         if not shader or shader.GetIdAttr().Get() != "UsdPreviewSurface":
             return None
@@ -117,7 +117,7 @@ class UsdMaterials:
         alpha = float(np.clip(opacity, 0.0, 1.0)) if opacity_source is None else 1.0
         if source is None:
             r, g, b = srgb(np.nan_to_num(np.array(color, dtype=np.float64))).tolist()
-            return _Paint(FaceMaterial((r, g, b, alpha), name=name))
+            return _TexturedMaterial(FaceMaterial((r, g, b, alpha), name=name))
         # The image's opacity counts only if the material reads its opacity from the same image.
         keeps_alpha = opacity_source is not None and opacity_source.GetPath() == source.GetPath()
         spec = _file_spec(source)
@@ -125,11 +125,11 @@ class UsdMaterials:
         if texture is None:
             fallback = _input(source, "fallback", None)[0]
             plain = FaceMaterial().color_rgba[:3] if fallback is None else srgb(np.nan_to_num(fallback)).tolist()[:3]
-            return _Paint(FaceMaterial((*plain, alpha), name=name))
+            return _TexturedMaterial(FaceMaterial((*plain, alpha), name=name))
         scale = np.array(_input(source, "scale", (1.0, 1.0, 1.0, 1.0))[0], dtype=np.float64)
         r, g, b = srgb(np.nan_to_num(scale[:3])).tolist()
         primvar, transform = _coordinates(source)
-        return _Paint(FaceMaterial((r, g, b, alpha), texture, name), primvar, transform)
+        return _TexturedMaterial(FaceMaterial((r, g, b, alpha), texture, name), primvar, transform)
 
 
 def _input(shader: Any, name: str, default: Any) -> tuple[Any, Any]:

@@ -8,8 +8,8 @@ import pytest
 from scene2hap import SceneObject, SceneSnapshot
 from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.protocol import Selection
+from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.shot_rendering import Photographer
-from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.surroundings import supports
 from scene2hap.scene.images import Shot
 from scenes import box, scene
@@ -33,18 +33,18 @@ CUP = box("cup", (0.1, 0.1, 0.1), (0, 0.75, 0))
 
 def photographer(*objects: SceneObject, **settings: object) -> Photographer:
     snapshot: SceneSnapshot = scene(*objects)
-    stage = Stage.of(snapshot)
+    render_scene = RenderScene.of(snapshot)
     config = CaptureConfig.parse({"size_px": 128, "antialias": False, **settings})
-    return Photographer(stage, embree.EmbreeRenderer(stage, False), config, supports(stage))
+    return Photographer(render_scene, embree.EmbreeRenderer(render_scene, False), config, supports(render_scene))
 
 
 def shown(camera_man: Photographer, selection: Selection) -> set[str]:
-    return {camera_man.stage.actors[k].id for k in selection.shown}
+    return {camera_man.scene.objects[k].id for k in selection.shown}
 
 
 def visible_share(camera_man: Photographer, shot: Shot) -> float:
     camera, selection = camera_man.aim(shot)
-    target = camera_man.stage.index[str(shot.subject)]
+    target = camera_man.scene.index[str(shot.subject)]
     alone = camera_man.renderer.identify(camera, Selection(frozenset({target}))) == target
     seen = camera_man.renderer.identify(camera, selection) == target
     assert alone.any()
@@ -99,11 +99,11 @@ def test_a_closed_room_is_opened_towards_the_camera_alone(azimuth: float) -> Non
     man = photographer(*ROOM, TABLE, CUP)
     camera, selection = man.aim(Shot("scene", None, azimuth, 45.0))
     ids = man.renderer.identify(camera, selection)
-    seen = {man.stage.actors[k].id for k in np.unique(ids[ids >= 0])}
+    seen = {man.scene.objects[k].id for k in np.unique(ids[ids >= 0])}
     assert {"floor", "table", "north", "west"} <= seen
     # At most the far rim of the ceiling is visible.
-    assert (ids == man.stage.index["ceiling"]).mean() < 0.02
-    assert (ids == man.stage.index["floor"]).mean() > 0.1
+    assert (ids == man.scene.index["ceiling"]).mean() < 0.02
+    assert (ids == man.scene.index["floor"]).mean() > 0.1
 
 
 def test_a_room_in_one_mesh_is_opened_like_one_of_walls() -> None:

@@ -20,7 +20,7 @@ from scene2hap.scene.capture.cache import MEMORY
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
 from scene2hap.scene.capture.fonts import lettering
 from scene2hap.scene.capture.protocol import Selection
-from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.views import frame
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scenes import box, scene
@@ -48,11 +48,11 @@ def pixels(png: bytes) -> np.ndarray:
 
 
 def draw(snapshot: SceneSnapshot, shown: set[int] | None = None, **options: Any) -> tuple[np.ndarray, np.ndarray]:
-    stage = Stage.of(snapshot)
-    points = np.concatenate([actor.points_m for actor in stage.actors])
+    render_scene = RenderScene.of(snapshot)
+    points = np.concatenate([item.points_m for item in render_scene.objects])
     camera = frame(points, 30.0, 45.0, "y", 0.8, 160)
-    selection = Selection(frozenset(shown) if shown is not None else stage.everyone)
-    found: tuple[np.ndarray, np.ndarray] = embree.EmbreeRenderer(stage, **options).draw(camera, selection)
+    selection = Selection(frozenset(shown) if shown is not None else render_scene.everyone)
+    found: tuple[np.ndarray, np.ndarray] = embree.EmbreeRenderer(render_scene, **options).draw(camera, selection)
     return found
 
 

@@ -14,7 +14,7 @@ from scene2hap import SceneSnapshot
 from scene2hap.scene.capture import capture_images
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
 from scene2hap.scene.capture.protocol import Selection
-from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.views import frame
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scenes import box, scene
@@ -52,11 +52,11 @@ def room() -> SceneSnapshot:
     ],
 )
 def test_both_renderers_agree(selection: Selection, elevation: float) -> None:
-    stage = Stage.of(room())
-    points = np.concatenate([actor.points_m for actor in stage.actors])
+    render_scene = RenderScene.of(room())
+    points = np.concatenate([item.points_m for item in render_scene.objects])
     camera = frame(points, 30.0, elevation, "y", 0.8, 200)
-    cast, cast_ids = embree.EmbreeRenderer(stage, False).draw(camera, selection)
-    drawn, drawn_ids = panda.Panda3DRenderer(stage).draw(camera, selection)
+    cast, cast_ids = embree.EmbreeRenderer(render_scene, False).draw(camera, selection)
+    drawn, drawn_ids = panda.Panda3DRenderer(render_scene).draw(camera, selection)
     assert (cast_ids != drawn_ids).mean() < 0.02
     same = cast_ids == drawn_ids
     assert (np.abs(cast[same].astype(int) - drawn[same]).max(axis=1) > 12).mean() < 0.03
@@ -82,19 +82,19 @@ def leaves(holed: bool) -> SceneSnapshot:
     )
 
 
-def seen_by(renderer: Any, stage: Stage, size_px: int = 200) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def seen_by(renderer: Any, render_scene: RenderScene, size_px: int = 200) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The picture of a scene, its ids, and the ids of a separate id pass."""
-    points = np.concatenate([actor.points_m for actor in stage.actors])
+    points = np.concatenate([item.points_m for item in render_scene.objects])
     camera = frame(points, 30.0, 40.0, "y", 0.8, size_px)
-    drawn: tuple[np.ndarray, np.ndarray] = renderer.draw(camera, Selection(stage.everyone))
-    return (*drawn, renderer.identify(camera, Selection(stage.everyone)))
+    drawn: tuple[np.ndarray, np.ndarray] = renderer.draw(camera, Selection(render_scene.everyone))
+    return (*drawn, renderer.identify(camera, Selection(render_scene.everyone)))
 
 
 @pytest.mark.parametrize("holed", [False, True])
 def test_transparent_texels_show_objects_behind(holed: bool) -> None:
-    stage = Stage.of(leaves(holed))
-    picture, ids, identified = seen_by(panda.Panda3DRenderer(stage), stage)
-    _, expected, _ = seen_by(embree.EmbreeRenderer(stage), stage)
+    render_scene = RenderScene.of(leaves(holed))
+    picture, ids, identified = seen_by(panda.Panda3DRenderer(render_scene), render_scene)
+    _, expected, _ = seen_by(embree.EmbreeRenderer(render_scene), render_scene)
     np.testing.assert_array_equal(ids, identified)
     assert (ids == 1).any() == holed
     assert (ids != expected).mean() < 0.03
@@ -114,9 +114,9 @@ def test_object_ids_are_distinct_in_a_large_scene(n_objects: int, is_textured: b
             for k in range(n_objects)
         )
     )
-    stage = Stage.of(crowd)
-    _, ids, identified = seen_by(panda.Panda3DRenderer(stage), stage, 400)
-    _, expected, _ = seen_by(embree.EmbreeRenderer(stage), stage, 400)
+    render_scene = RenderScene.of(crowd)
+    _, ids, identified = seen_by(panda.Panda3DRenderer(render_scene), render_scene, 400)
+    _, expected, _ = seen_by(embree.EmbreeRenderer(render_scene), render_scene, 400)
     np.testing.assert_array_equal(ids, identified)
     assert set(np.unique(ids)) == {-1, *range(n_objects)}
     # Corners are rounded to whole pixels, so that the rims of small tiles differ.
@@ -125,23 +125,23 @@ def test_object_ids_are_distinct_in_a_large_scene(n_objects: int, is_textured: b
 
 
 def test_an_empty_selection_shows_the_background() -> None:
-    stage = Stage.of(room())
-    camera = frame(stage.actors[0].points_m, 30.0, 45.0, "y", 0.8, 64)
-    picture, ids = panda.Panda3DRenderer(stage).draw(camera, Selection(frozenset()))
+    render_scene = RenderScene.of(room())
+    camera = frame(render_scene.objects[0].points_m, 30.0, 45.0, "y", 0.8, 64)
+    picture, ids = panda.Panda3DRenderer(render_scene).draw(camera, Selection(frozenset()))
     assert (ids == -1).all()
     assert (picture == BACKGROUND_RGB).all()
 
 
 def test_pictures_do_not_depend_on_earlier_pictures() -> None:
-    stage = Stage.of(room())
-    camera = frame(stage.actors[2].points_m, 30.0, 45.0, "y", 0.4, 128)
+    render_scene = RenderScene.of(room())
+    camera = frame(render_scene.objects[2].points_m, 30.0, 45.0, "y", 0.4, 128)
     selections = [
-        Selection(stage.everyone),
-        Selection(stage.everyone, frozenset({0, 1}), (0.0, -0.5, 0.0)),
+        Selection(render_scene.everyone),
+        Selection(render_scene.everyone, frozenset({0, 1}), (0.0, -0.5, 0.0)),
         Selection(frozenset({2})),
     ]
-    first = [panda.Panda3DRenderer(stage).draw(camera, selection) for selection in selections]
-    used = panda.Panda3DRenderer(stage)
+    first = [panda.Panda3DRenderer(render_scene).draw(camera, selection) for selection in selections]
+    used = panda.Panda3DRenderer(render_scene)
     other = camera.widened(3.0).resized(48)
     for selection, (picture, ids) in [*zip(selections, first, strict=True), *zip(selections, first, strict=True)]:
         used.identify(other, selection)

@@ -15,7 +15,7 @@ from others import SCENES, there
 from rooms import room_file
 from scene2hap import SceneSnapshot, load_scene
 from scene2hap.scene.capture import capture_images
-from scene2hap.scene.capture.lazy_pictures import Studio
+from scene2hap.scene.capture.lazy_pictures import LazyPictures
 from scene2hap.scene.capture.protocol import Selection
 from scene2hap.scene.capture.views import Camera
 from scene2hap.scene.images import Shot
@@ -43,7 +43,7 @@ def names() -> list[str]:
     return [*OWN, *there(FILES, file_of)]
 
 
-def studio_of(name: str) -> Studio:
+def studio_of(name: str) -> LazyPictures:
     """The scene captured without appearances, whose textures may have holes that an id pass does not know."""
     if name not in _loaded:
         snapshot = load_scene(file_of(name), unit_m=FILES[name][1] if name in FILES else None)
@@ -51,12 +51,12 @@ def studio_of(name: str) -> Studio:
         _loaded[name] = replace(snapshot, objects=bare)
     images = capture_images(_loaded[name], size_px=SIZE_PX).images
     assert images is not None
-    assert isinstance(images.source, Studio)
+    assert isinstance(images.source, LazyPictures)
     return images.source
 
 
-def some_ids(studio: Studio, every: int) -> list[str]:
-    return [item.id for item in studio.scene.objects][::every]
+def some_ids(pictures: LazyPictures, every: int) -> list[str]:
+    return [item.id for item in pictures.scene.objects][::every]
 
 
 def picture(png: bytes) -> np.ndarray:
@@ -69,13 +69,13 @@ def rays_at(camera: Camera, rows: np.ndarray, columns: np.ndarray) -> np.ndarray
     return x[:, None] * camera.axes[0] + y[:, None] * camera.axes[1] + camera.axes[2]
 
 
-def first_objects(studio: Studio, camera: Camera, selection: Selection, directions: np.ndarray) -> np.ndarray:
+def first_objects(pictures: LazyPictures, camera: Camera, selection: Selection, directions: np.ndarray) -> np.ndarray:
     """The first object on each ray, by Moeller and Trumbore's test of every ray with every triangle."""
-    origin = np.asarray(studio.stage.origin_m)
+    origin = np.asarray(pictures.render_scene.origin_m)
     best, owner = np.full(len(directions), np.inf), np.full(len(directions), -1)
     focus = np.asarray(selection.focus_m)
     for number in sorted(selection.shown):
-        item = studio.scene.objects[number]
+        item = pictures.scene.objects[number]
         mesh = item.geometry.mesh
         triangles = (item.pose.to_world(mesh.vertices_m) - origin)[mesh.faces]
         a, edge1, edge2 = triangles[:, 0], triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
@@ -112,14 +112,14 @@ def first_objects(studio: Studio, camera: Camera, selection: Selection, directio
     [(name, {"aws_house_living": 24}.get(name, 3 if name in OWN else 15)) for name in names()],
 )
 def test_outline_encloses_exactly_the_visible_target(name: str, every: int) -> None:
-    studio = studio_of(name)
-    width = studio.config.outline_px
+    pictures = studio_of(name)
+    width = pictures.config.outline_px
     reach = np.hypot(*np.mgrid[-width : width + 1, -width : width + 1]) <= width + 0.5
     common = total = 0
-    for turn, subject in enumerate(sorted(set(studio.copies.context.values()))[::every]):
-        shot = studio.config.object_shots("context", subject)[turn % 8]
-        camera, selection = studio._photographer.aim(shot)
-        is_outline = (picture(studio.image(shot)) == PINK).all(axis=2)
+    for turn, subject in enumerate(sorted(set(pictures.copies.context.values()))[::every]):
+        shot = pictures.config.object_shots("context", subject)[turn % 8]
+        camera, selection = pictures._photographer.aim(shot)
+        is_outline = (picture(pictures.image(shot)) == PINK).all(axis=2)
         rows, columns = np.nonzero(is_outline)
         assert len(rows), f"{subject} has no outline {shot.label}"
         window = np.zeros_like(is_outline)
@@ -129,8 +129,8 @@ def test_outline_encloses_exactly_the_visible_target(name: str, every: int) -> N
         ] = True
         at = np.nonzero(window)
         owner = np.full(is_outline.shape, -1)
-        owner[at] = first_objects(studio, camera, selection, rays_at(camera, *at))
-        is_target = owner == studio.stage.index[subject]
+        owner[at] = first_objects(pictures, camera, selection, rays_at(camera, *at))
+        is_target = owner == pictures.render_scene.index[subject]
         expected = binary_dilation(is_target, reach) & ~is_target
         common += (expected & is_outline).sum()
         total += (expected | is_outline).sum()
@@ -140,28 +140,28 @@ def test_outline_encloses_exactly_the_visible_target(name: str, every: int) -> N
 
 @pytest.mark.parametrize("name", names())
 def test_every_isolated_image_is_framed_and_not_blank(name: str) -> None:
-    studio = studio_of(name)
-    man = studio._photographer
-    for subject in some_ids(studio, 5):
-        item = studio.scene.object(subject)
+    pictures = studio_of(name)
+    man = pictures._photographer
+    for subject in some_ids(pictures, 5):
+        item = pictures.scene.object(subject)
         points = item.pose.to_world(item.geometry.mesh.vertices_m[np.unique(item.geometry.mesh.faces)])
-        for shot in studio.config.object_shots("isolated", subject)[::3]:
+        for shot in pictures.config.object_shots("isolated", subject)[::3]:
             camera, _ = man.aim(shot)
-            pixels, _ = camera.project(points - studio.stage.origin_m)
+            pixels, _ = camera.project(points - pictures.render_scene.origin_m)
             assert 0.6 <= np.ptp(pixels, axis=0).max() / SIZE_PX <= 0.9
-            assert picture(studio.image(shot)).std() > 2
+            assert picture(pictures.image(shot)).std() > 2
 
 
 @pytest.mark.parametrize("name", names())
 def test_targets_are_visible_in_context_pictures(name: str) -> None:
-    studio = studio_of(name)
-    man = studio._photographer
+    pictures = studio_of(name)
+    man = pictures._photographer
     good = []
-    subjects = sorted(set(studio.copies.context.values()))[1::5]
+    subjects = sorted(set(pictures.copies.context.values()))[1::5]
     for subject in subjects:
-        number = studio.stage.index[subject]
+        number = pictures.render_scene.index[subject]
         shares = []
-        for shot in studio.config.object_shots("context", subject):
+        for shot in pictures.config.object_shots("context", subject):
             camera, selection = man.aim(shot)
             small = camera.resized(96)
             alone = man.renderer.identify(small, Selection(frozenset({number}))) == number
@@ -173,13 +173,13 @@ def test_targets_are_visible_in_context_pictures(name: str) -> None:
 
 @pytest.mark.parametrize("name", names())
 def test_scene_pictures_show_most_objects(name: str) -> None:
-    studio = studio_of(name)
+    pictures = studio_of(name)
     seen: set[int] = set()
-    for shot in studio.config.scene_shots():
-        camera, selection = studio._photographer.aim(shot)
-        seen |= set(np.unique(studio._photographer.renderer.identify(camera, selection)).tolist())
-        assert picture(studio.image(shot)).std() > 10
-    assert len(seen - {-1}) >= 0.7 * len(studio.scene.objects)
+    for shot in pictures.config.scene_shots():
+        camera, selection = pictures._photographer.aim(shot)
+        seen |= set(np.unique(pictures._photographer.renderer.identify(camera, selection)).tolist())
+        assert picture(pictures.image(shot)).std() > 10
+    assert len(seen - {-1}) >= 0.7 * len(pictures.scene.objects)
 
 
 def test_shots_have_readable_names() -> None:

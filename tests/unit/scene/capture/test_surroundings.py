@@ -8,7 +8,7 @@ import numpy as np
 
 from scene2hap import SceneObject
 from scene2hap.scene.capture.faces import planes, separates
-from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.surroundings import Copies, containers, holders, near, shells, supports
 from scenes import box, scene
 
@@ -25,18 +25,18 @@ ROOM = (
 )
 
 
-def stage(*objects: SceneObject) -> Stage:
-    return Stage.of(scene(*objects))
+def render_scene(*objects: SceneObject) -> RenderScene:
+    return RenderScene.of(scene(*objects))
 
 
-def names(room: Stage, numbers: frozenset[int]) -> set[str]:
-    return {room.actors[k].id for k in numbers}
+def names(room: RenderScene, numbers: frozenset[int]) -> set[str]:
+    return {room.objects[k].id for k in numbers}
 
 
 def test_support_is_the_first_object_below() -> None:
-    room = stage(*ROOM)
-    below = {actor.id: under for actor, under in zip(room.actors, supports(room), strict=True)}
-    found = {key: None if under is None else room.actors[under].id for key, under in below.items()}
+    room = render_scene(*ROOM)
+    below = {item.id: under for item, under in zip(room.objects, supports(room), strict=True)}
+    found = {key: None if under is None else room.objects[under].id for key, under in below.items()}
     # The saucer is sunk into the table by half its height, and the cup hovers 1 mm above the saucer.
     assert found == {
         "floor": None,
@@ -53,24 +53,24 @@ def test_support_is_the_first_object_below() -> None:
 
 def test_support_follows_the_up_axis() -> None:
     objects = (box("floor", (4, 4, 0.1), (0, 0, -0.05)), box("cube", (1, 1, 1), (0, 0, 0.5)))
-    upright = Stage.of(replace(scene(*objects), up_axis="z"))
+    upright = RenderScene.of(replace(scene(*objects), up_axis="z"))
     assert supports(upright) == (None, 0)
 
 
 def test_floor_walls_and_pieces_of_wall_are_shells() -> None:
-    room = stage(*ROOM)
+    room = render_scene(*ROOM)
     assert names(room, shells(room)) == {"floor", "wall", "tile"}
 
 
 def test_near_distance_scales_with_the_target() -> None:
-    room = stage(*ROOM)
+    room = render_scene(*ROOM)
     table = room.index["table"]
     assert names(room, near(room, table, 0.1)) == {"floor", "cup", "saucer"}
     assert "chair" in names(room, near(room, table, 1.0))
 
 
 def test_container_encloses_most_of_the_target() -> None:
-    room = stage(
+    room = render_scene(
         box("cabinet", (1, 1, 1), (0, 0.5, 0)),
         box("plate", (0.2, 0.02, 0.2), (0, 0.5, 0)),
         box("door", (0.5, 0.5, 0.5), (0.5, 0.5, 0)),
@@ -81,8 +81,8 @@ def test_container_encloses_most_of_the_target() -> None:
 
 def test_touching_faces_are_separated_far_from_the_origin() -> None:
     far = 1e5
-    room = stage(box("table", (1, 0.7, 1), (far, 0.35, far)), box("cup", (0.1, 0.1, 0.1), (far, 0.75, far)))
-    table, cup = (room.actors[k].box_m for k in (0, 1))
+    room = render_scene(box("table", (1, 0.7, 1), (far, 0.35, far)), box("cup", (0.1, 0.1, 0.1), (far, 0.75, far)))
+    table, cup = (room.objects[k].box_m for k in (0, 1))
     gap = cup[0, 1] - table[1, 1]
     assert 0 < gap < 1e-3
     np.testing.assert_allclose(np.ptp(cup, axis=0), 0.1, rtol=1e-2)
@@ -116,7 +116,7 @@ def test_copies_that_hang_on_different_things_have_context_pictures_of_their_own
         box("cupboard", (1, 1.2, 0.3), (0, 0.65, 1.25)),
         *(replace(box(key, (0.3, 0.4, 0.05), place), name="frame", instance_key="f") for key, place in frames.items()),
     )
-    room = stage(*objects)
+    room = render_scene(*objects)
     below = supports(room)
     held_by = holders(room, below, 0.1)
     assert [names(room, by) for by in held_by[3:]] == [{"wall"}, {"wall"}, {"cupboard"}]

@@ -80,7 +80,7 @@ def test_object_added_without_contact_carries_after_its_first_contact() -> None:
     assert s.update({"tray": Pose((0.8, 0.73, 0.4))}, on_tray).gain("left", "phone") > 0
 
 
-class Guest:
+class InstalledPlugin:
     """A plugin model with a live field that returns a fixed gain."""
 
     def __init__(self, answer: float) -> None:
@@ -90,7 +90,7 @@ class Guest:
     def prepare(self, network: Any, excitations: Any, bands: Bands) -> Any:
         raise AssertionError("a model with a live field is never asked to prepare one")
 
-    def live(self, graph: Any, bodies: Any, excitations: Any, bands: Bands) -> "Guest":
+    def live(self, graph: Any, bodies: Any, excitations: Any, bands: Bands) -> "InstalledPlugin":
         self.n_fields += 1
         self.graph, self.n_bands = graph, bands.n_bands
         self.source_ids = tuple(item.source_id for item in excitations)
@@ -103,7 +103,7 @@ class Guest:
 
 
 def test_plugin_can_provide_a_live_field() -> None:
-    model = Guest(0.25)
+    model = InstalledPlugin(0.25)
     s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": model})
     frame = s.update({"phone": Pose((0.3, 0.725, 0.4))}, [ON_TABLE, Touch("left", "alarm", (1.5, 0.73, 0.4))])
     assert model.asked == [[[("table", ON_TABLE.point_m), ("alarm", (1.5, 0.73, 0.4))]]]
@@ -121,19 +121,19 @@ def test_plugin_can_provide_a_live_field() -> None:
 
 
 def test_a_touch_on_the_source_takes_nothing_from_a_stronger_one() -> None:
-    s = HapticSession(*table_with_two_phones(), {"propagation": Guest(2.0), "gain_limit_db": None})
+    s = HapticSession(*table_with_two_phones(), {"propagation": InstalledPlugin(2.0), "gain_limit_db": None})
     frame = s.update(touches=[ON_TABLE, Touch("left", "alarm", (1.5, 0.73, 0.4))])
     assert frame.gain("left", "alarm") == 2.0
 
 
 @pytest.mark.parametrize(("answer", "told"), [(3.0, 1.0), (math.nan, 0.0), (-1.0, 0.0)])
 def test_invalid_gains_of_a_plugin_are_not_rendered(answer: float, told: float) -> None:
-    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": Guest(answer)})
+    s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": InstalledPlugin(answer)})
     assert s.update(touches=[ON_TABLE]).gain("left", "phone") == told
     assert s.stats.gains_capped == (2 if answer > 1 else 0)
 
 
-class WithPathCosts(Guest):
+class WithPathCosts(InstalledPlugin):
     """The same with a cost of 0 for everything; returns too many or too few costs or bands."""
 
     def __init__(self, costs_more: int, bands_more: int) -> None:
@@ -155,7 +155,7 @@ class WithPathCosts(Guest):
 
 
 def test_plugin_results_of_wrong_shape_raise_session_errors() -> None:
-    class Wide(Guest):
+    class Wide(InstalledPlugin):
         def strongest(self, hands: Sequence[Sequence[Any]]) -> np.ndarray:
             return super().strongest(hands).repeat(2, axis=1)
 

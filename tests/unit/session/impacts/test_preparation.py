@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from scene2hap.session.impacts.struck_ahead import StruckAhead
+from scene2hap.session.impacts.preparation import ImpactPreparation
 
 
 def test_scene_is_prepared_again_when_its_contacts_rest_and_once_a_second_while_they_change(
@@ -30,7 +30,7 @@ def test_scene_is_prepared_again_when_its_contacts_rest_and_once_a_second_while_
         touches_a_body=lambda object_id: True,
         network=lambda touched: None,
     )
-    ahead = StruckAhead(None, state, submit)  # type: ignore[arg-type]
+    ahead = ImpactPreparation(None, state, submit)  # type: ignore[arg-type]
     for frame in range(500):  # of 10 ms
         now_s[0] = 100.0 + 0.01 * frame
         if frame == 50 or 200 <= frame < 350:

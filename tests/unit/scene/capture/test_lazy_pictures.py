@@ -16,7 +16,7 @@ from scene2hap.errors import ConfigError, MissingExtra, SceneError, UnknownObjec
 from scene2hap.scene.capture import RENDERERS, CaptureConfig, capture_images, capture_stats, contact_sheet, render_all
 from scene2hap.scene.capture.cache import MEMORY, FolderCache, MemoryCache
 from scene2hap.scene.capture.protocol import Ids, Pixels, Selection
-from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.views import Camera
 from scene2hap.scene.images import ImageSet
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
@@ -24,12 +24,12 @@ from scenes import box, scene
 
 
 class CountingRenderer:
-    """A renderer that paints a square of the first shown actor, and counts its calls."""
+    """A renderer that paints a square of the first shown item, and counts its calls."""
 
     made = 0
     drawn = 0
 
-    def __init__(self, stage: Stage, antialias: bool) -> None:
+    def __init__(self, render_scene: RenderScene, antialias: bool) -> None:
         type(self).made += 1
 
     def identify(self, camera: Camera, selection: Selection) -> Ids:

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from scene2hap.common.arrays import Floats
-from scene2hap.propagation.coupled.impact_scene import StruckScene
+from scene2hap.propagation.coupled.impact_scene import ImpactScene
 from scene2hap.propagation.coupled.substructuring import prepare_struck
 from scene2hap.propagation.live import TouchedPoint
 from scene2hap.propagation.protocol import Body, CoupledModel
@@ -43,7 +43,7 @@ class Ordered(NamedTuple):
     version: int
 
 
-class StruckAhead:
+class ImpactPreparation:
     """Prepares the scene around touched objects. Call all methods on the game's thread.
 
     A worker publishes the newest scene in a single slot, so that an impact is felt with it before the next update.
@@ -54,7 +54,7 @@ class StruckAhead:
         self, model: CoupledModel, state: SceneState, submit: Callable[[Callable[[], None]], Future[None]]
     ) -> None:
         self._model, self._state, self._submit = model, state, submit
-        self._prepared: tuple[Mapping[str, Body], StruckScene] | None = None
+        self._prepared: tuple[Mapping[str, Body], ImpactScene] | None = None
         self._touched: list[str] = []
         self._ordered = Ordered((), -1)
         self._job: Future[None] | None = None

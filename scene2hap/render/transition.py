@@ -7,12 +7,12 @@ x)^2. Its amplitude is a = s^2, the force of an unbalance. A source that does no
 amplitude follows half a cosine. Recorded: a is the recorded amplitude. If the recording shows a speed, s is that speed;
 else s = sqrt(a) for a source that spins.
 
-A passage begins or ends in phase with the loop itself, so the change between them is seamless. After its end it is the
-loop, or silence, for as long as nothing replaces it: a game may not update for a while. A passage that begins during
-another one continues from the present amplitude. If the curve has another speed there, the difference fades over
-the rest of the passage. A stop also continues from the present place in the loop. A start has to end in phase, so it
-continues from the place near its own that sounds most like the present one, and the difference fades as well: two
-places out of phase would cancel each other while one fades into the other.
+A transition begins or ends in phase with the loop itself, so the change between them is seamless. After its end it is
+the loop, or silence, for as long as nothing replaces it: a game may not update for a while. A transition that begins
+during another one continues from the present amplitude. If the curve has another speed there, the difference fades
+over the rest of the transition. A stop also continues from the present place in the loop. A start has to end in phase,
+so it continues from the place near its own that sounds most like the present one, and the difference fades as well:
+two places out of phase would cancel each other while one fades into the other.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ _NEARER = 0.1
 """Likeness that the farthest place must have more than the start's own [-], since a shift bends the pitch."""
 _STEPS = 4096
 _GRID = np.linspace(0.0, 1.0, _STEPS + 1)
-"""Shares of the time at which courses are tabulated: 7 ms apart in the longest passage."""
+"""Shares of the time at which courses are tabulated: 7 ms apart in the longest transition."""
 _PLANNED = 20 * CELL
-"""Samples of a passage whose places are computed at once: with up to 500 numbers, see `CELL`."""
+"""Samples of a transition whose places are computed at once: with up to 500 numbers, see `CELL`."""
 
 Signal = NDArray[np.float64]
 
@@ -53,8 +53,8 @@ class Running(NamedTuple):
 STEADY, STILL = Running(1.0, 1.0), Running(0.0, 0.0)
 
 
-class Course(NamedTuple):
-    """The course of a passage: up or down, spinning or not, along a recorded curve or, for None, an assumed one."""
+class TransitionCurve(NamedTuple):
+    """The course of a transition: up or down, spinning or not, along a recorded curve or, for None, an assumed one."""
 
     goes_up: bool
     spins: bool
@@ -89,15 +89,15 @@ class Course(NamedTuple):
         return x if self.goes_up else 1.0 - x
 
 
-class Passage:
+class Transition:
     """A loop that starts or stops once; a `Slot`.
 
     Its course is tabulated when it is made, in the same time for any duration. Its samples are computed while it plays,
     one cell at a time, since those of 30 s take longer than a frame of a game.
 
-    Parameters: steady : the bank of the loop itself; begin : tactile sample of the clock at which the passage starts;
+    Parameters: steady : the bank of the loop itself; begin : tactile sample of the clock at which it starts;
         lasts_s : from standstill to full speed, or back [s]; since : speed and amplitude at its start; after : the
-        passage that it interrupts, if any. From the sample `end` on, it is the steady loop or silence.
+        transition that it interrupts, if any. From the sample `end` on, it is the steady loop or silence.
     """
 
     def __init__(
@@ -105,9 +105,9 @@ class Passage:
         steady: LoopBank,
         begin: int,
         lasts_s: float,
-        course: Course,
+        course: TransitionCurve,
         since: Running,
-        after: Passage | None = None,
+        after: Transition | None = None,
     ) -> None:
         rate = steady.sample_rate_hz
         self._begin, self._lead = begin, 0 if course.goes_up else round(LEAD_S * rate)
@@ -141,7 +141,7 @@ class Passage:
         self._afterwards = self._steady if course.goes_up else None
 
     def only(self, begin: int) -> StoredLoop | None:
-        """Return a cell of the passage, valid until the next call, or from its end on the steady loop or silence."""
+        """Return a cell of the transition, valid until the next call, or from its end on the steady loop or silence."""
         if begin >= self.end:
             return self._afterwards
         if not self._planned <= begin <= self._planned + _PLANNED - CELL:
@@ -156,7 +156,7 @@ class Passage:
         return Running(float(_line(self._speed, k, part)[0]), float(_line(self._amplitude, k, part)[0]))
 
     def _plan(self, begin: int) -> None:
-        """Compute which samples of the loop make up the next samples of the passage, and their weights."""
+        """Compute which samples of the loop make up the next samples of the transition, and their weights."""
         at = np.arange(begin, begin + _PLANNED) - self._begin - self._lead
         k, part = self._knots(at)
         place, amplitude = self._places(at, k, part), _line(self._amplitude, k, part)
@@ -176,7 +176,7 @@ class Passage:
         return k, j - k
 
     def _places(self, at: NDArray[np.int_], k: NDArray[np.intp], part: Signal) -> Signal:
-        """Return the samples of the loop that are played, counted from the beginning of the passage."""
+        """Return the samples of the loop that are played, counted from the beginning of the transition."""
         first = self._speed[k]
         within = part * (first + part / 2 * (self._speed[k + 1] - first)) * self._step
         # The speed is constant before and after the tables.

@@ -28,8 +28,8 @@ _INSET = 3e-6
 
 
 @dataclass(frozen=True, eq=False)
-class Actor:
-    """One object: triangles (m, 3, 3) [m] relative to the `Stage` origin, rows of the palette (m,), uv (m, 3, 2).
+class RenderObject:
+    """One object: triangles (m, 3, 3) [m] relative to the `RenderScene` origin, rows of the palette (m,), uv (m, 3, 2).
 
     `digest` covers its rotated shape and its looks, but not its position.
     """
@@ -60,42 +60,42 @@ class Actor:
 
 
 @dataclass(frozen=True, eq=False)
-class Stage:
+class RenderScene:
     """All objects of a scene, in scene order, as plain arrays that can be sent to worker processes.
 
     Coordinates are relative to the middle of the scene. Renderers use float32, which would lose precision in scenes far
     from the world's origin.
     """
 
-    actors: tuple[Actor, ...]
+    objects: tuple[RenderObject, ...]
     palette: Palette
     up_axis: UpAxis
     origin_m: tuple[float, float, float]
 
     @classmethod
-    def of(cls, scene: SceneSnapshot) -> Stage:
+    def of(cls, scene: SceneSnapshot) -> RenderScene:
         """Prepare a scene."""
         low, high = joined([item.bounds_m for item in scene.objects])
         origin = (low + high) / 2
         palette = PaletteBuilder()
         inset_m = _INSET * float(np.linalg.norm(high - low))
-        actors = tuple(_actor(item, origin, inset_m, palette) for item in scene.objects)
-        return cls(actors, palette.build(), scene.up_axis, vector(origin))
+        objects = tuple(_render_object(item, origin, inset_m, palette) for item in scene.objects)
+        return cls(objects, palette.build(), scene.up_axis, vector(origin))
 
     @cached_property
     def index(self) -> dict[str, int]:
         """Number of each object by its id."""
-        return {actor.id: number for number, actor in enumerate(self.actors)}
+        return {item.id: number for number, item in enumerate(self.objects)}
 
     @cached_property
     def everyone(self) -> frozenset[int]:
         """The numbers of all objects."""
-        return frozenset(range(len(self.actors)))
+        return frozenset(range(len(self.objects)))
 
     @cached_property
     def boxes_m(self) -> Vector:
         """Lowest and highest corner (n, 2, 3) [m] of each object."""
-        return np.array([actor.box_m for actor in self.actors])
+        return np.array([item.box_m for item in self.objects])
 
     @cached_property
     def box_m(self) -> Vector:
@@ -117,12 +117,12 @@ class Stage:
     def digest(self) -> str:
         """A digest of everything that a picture of the whole scene can show."""
         parts: list[object] = [self.up_axis]
-        for actor in self.actors:
-            parts += (actor.digest, actor.box_m.tobytes())
+        for item in self.objects:
+            parts += (item.digest, item.box_m.tobytes())
         return _named(parts)
 
 
-def _actor(item: SceneObject, origin: Vector, inset_m: float, palette: PaletteBuilder) -> Actor:
+def _render_object(item: SceneObject, origin: Vector, inset_m: float, palette: PaletteBuilder) -> RenderObject:
     mesh = item.geometry.mesh
     corners = _drawn_in(item.pose.to_world(mesh.vertices_m) - origin, item.bounds_m - origin, inset_m)
     looks = item.appearance
@@ -139,7 +139,7 @@ def _actor(item: SceneObject, origin: Vector, inset_m: float, palette: PaletteBu
     paints, which = np.unique(material, return_inverse=True)
     named = [palette.keys[row] for row in paints]
     digest = _named([mesh.digest, item.pose.rotation_xyzw, named, which.astype(np.int32).tobytes(), uv.tobytes()])
-    return Actor(item.id, corners[mesh.faces], material, uv, digest)
+    return RenderObject(item.id, corners[mesh.faces], material, uv, digest)
 
 
 def _drawn_in(corners_m: Vector, box_m: Vector, inset_m: float) -> Floats32:
