@@ -67,7 +67,7 @@ class PluginGroup:
         """Return the class or factory registered under `kind`.
 
         Raises: UnknownPlugin: no such kind. MissingExtra: its optional dependency is not installed. ConfigError:
-        another package's entry point cannot be imported, or is neither a class nor a function.
+        another package's entry point cannot be imported, raises an error, or is neither a class nor a function.
         """
         if kind in self.builtins:
             return self._resolve(EntryPoint(kind, self.builtins[kind], self.name))
@@ -147,7 +147,6 @@ class PluginGroup:
     def _resolve(self, entry: EntryPoint) -> Callable[..., object]:
         try:
             import_module(entry.module)
-            found: Callable[..., object] = entry.load()
         except ImportError as cause:
             if entry.name in self.extras:
                 extra = self.extras[entry.name]
@@ -156,6 +155,14 @@ class PluginGroup:
                     f"Run: pip install 'scene2hap[{extra}]'"
                 ) from cause
             raise ConfigError(f"{self.name} kind {entry.name!r} ({entry.value}) does not import: {cause}") from cause
+        except Exception as cause:  # a foreign module may raise any error
+            if entry.name in self.builtins:
+                raise
+            raise ConfigError(
+                f"{self.name} kind {entry.name!r} ({entry.value}) raises when imported: {type(cause).__name__}: {cause}"
+            ) from cause
+        try:
+            found: Callable[..., object] = entry.load()
         except AttributeError as cause:
             raise ConfigError(f"{self.name} kind {entry.name!r}: {entry.value} does not exist.") from cause
         if not callable(found):

@@ -86,7 +86,11 @@ def test_plugins_are_listed_with_their_errors(monkeypatch: pytest.MonkeyPatch, t
     assert problems.pop("decimal") == ""
     assert "does not import" in problems["broken"]
     assert "math:no does not exist" in problems["gone"]
-    assert problems["breaks"] == "ZeroDivisionError: division by zero"
+    assert problems["breaks"] == (
+        f"{GROUP.name} kind 'breaks' (scene2hap_breaks:X) raises when imported: ZeroDivisionError: division by zero"
+    )
+    with pytest.raises(ConfigError, match="raises when imported: ZeroDivisionError"):
+        GROUP.load("breaks")
     assert "is 3.14159" in problems["number"]
     assert "it must be a class or a function" in problems["number"]
     assert "scene2hap's own kind of this name is used" in problems[next(iter(GROUP.builtins))]
