@@ -7,7 +7,7 @@ whole. A port is a point of a body and the direction of a joint's force there. T
     Y = n n' Y_b(x, x') + sum over the motions of +-s_i s_i' / (omega_i^2 (1 + j eta) - omega^2)
 
 where n is the direction's component along the normal, and s_i the port's displacement in a motion of modal mass 1. The
-sign is negative for what Y_b and another motion both contain (`Sheet`).
+sign is negative for what Y_b and another motion both contain (`PlateMotions`).
 
 Letters: Y_b [m/N] receptance of the plate in bending, omega_i [rad/s] 0 for the motions of a rigid box, eta [-].
 """
@@ -44,7 +44,7 @@ the values (n, n_f) in the row from this column on."""
 _ASIDE = 1e-6  # Component along the normal up to which a direction does not bend the plate.
 
 
-class Box:
+class BoxMotions:
     """The motions of a rigid body: translations along its principal axes and rotations about them."""
 
     def __init__(self, body: RigidMotion) -> None:
@@ -63,7 +63,7 @@ class Box:
         return shapes
 
 
-class Sheet:
+class PlateMotions:
     """The in-plane motions of a plate, and its tilting about the plane's two axes as a rigid box.
 
     A tilt moves a point beside the mid-plane in the plane's direction, by s, and a point beside the middle along the
@@ -88,7 +88,7 @@ class Sheet:
         return np.concatenate([own, aside + bent, bent], axis=1)
 
 
-class Held:
+class NoMotions:
     """The motions of a plate that an edge holds: none."""
 
     squares: NDArray[np.float64] = np.empty(0)
@@ -108,7 +108,7 @@ class InclinedBody(SpatialBody):
     """
 
     bending: ElasticBody | None
-    motions: Box | Sheet | Held
+    motions: BoxMotions | PlateMotions | NoMotions
     strain_loss: float = 0.0
 
     @property
@@ -237,9 +237,11 @@ def inclined(plate: Plate, bending: ElasticBody) -> InclinedBody:
         tilting_kg = max(plate.moving_mass_kg, plate.mass_kg)
         if isinstance(bending, LeggedBody):
             tilting_kg = plate.mass_kg + 3 * float(bending.masses_kg.sum())
-        motions: Sheet | Held = Sheet(in_plane_modes(plate, plate.moving_mass_kg), tilting_kg, size_m)
+        motions: PlateMotions | NoMotions = PlateMotions(
+            in_plane_modes(plate, plate.moving_mass_kg), tilting_kg, size_m
+        )
     else:
-        motions = Held()
+        motions = NoMotions()
     kind = InclinedShapes if isinstance(bending, HasResponseBasis) else InclinedBody
     # A plate without edges has no resonances and an infinite loss factor: strain takes that of the material.
     loss = bending.loss_factor if math.isfinite(bending.loss_factor) else plate.material.loss_factor
@@ -248,7 +250,7 @@ def inclined(plate: Plate, bending: ElasticBody) -> InclinedBody:
 
 def inclined_box(rigid: RigidMotion) -> InclinedBody:
     """Make the body of a compact object of known size."""
-    return InclinedShapes(None, Box(rigid))
+    return InclinedShapes(None, BoxMotions(rigid))
 
 
 def _bending(ports: Floats) -> tuple[NDArray[np.intp], Floats, Floats]:
