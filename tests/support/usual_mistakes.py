@@ -333,7 +333,7 @@ TOPICS: dict[str, tuple[Mistake, ...]] = {
         ),
         mistake(
             "a = WavSink('two.wav')\nb = WavSink('two.wav')\n"
-            "HapticSession(scene, bundle, sink=a).start()\nHapticSession(scene, bundle, sink=b).start()",
+            "with HapticSession(scene, bundle, sink=a):\n    HapticSession(scene, bundle, sink=b).start()",
             "two.wav",
         ),
         mistake("WavSink()", "path"),
