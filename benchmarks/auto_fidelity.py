@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, Plate, Pose, PropagationField, materials
 from scene2hap.propagation.auto import AutoFidelity, AutoField
-from scene2hap.propagation.auto_rungs import FINENESS, FLOOR_DB, MODAL_DB, Situation, body_of
+from scene2hap.propagation.auto_rungs import FINENESS, FLOOR_DB, MODAL_DB, PlateCase, body_of
 from scene2hap.propagation.bodies import infinite_body, lattice_body, modal_body, rigid
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.substructuring import CoupledField, assemble
@@ -218,14 +218,12 @@ def calibrate(n_draws: int, first: int) -> None:
         if rigid.is_compact(one.plate):
             continue
         scene = assemble(one.network, one.excitations, one.bands, ContactLaw(), "ignore")
-        situation: Situation = AutoFidelity()._situation(scene, "plate")
-        if situation.peak_db <= FLOOR_DB:
+        case: PlateCase = AutoFidelity()._case(scene, "plate")
+        if case.peak_db <= FLOOR_DB:
             continue
         truth = asked(one, by_rung(one, "modal"))
         for rung in MODAL_DB["free"]:
-            errors.setdefault((situation.held, rung), []).append(
-                wrong_by(asked(one, by_rung(one, rung, density)), truth)
-            )
+            errors.setdefault((case.held, rung), []).append(wrong_by(asked(one, by_rung(one, rung, density)), truth))
         if one.plate.edges == "FFFF" and one.bands.edges_hz[-1] < 0.2 * modes.first_bending_hz(one.plate):
             ratio = one.bands.edges_hz[-1] / modes.first_bending_hz(one.plate)
             error = wrong_by(asked(one, by_rung(one, "rigid", density)), truth)

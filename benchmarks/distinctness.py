@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from scene2hap.audio.actuators import actuator_profile
-from scene2hap.audio.distinctness import FAR_DB, Difference, Feel, distinctness, feel_of
+from scene2hap.audio.distinctness import FAR_DB, Difference, Percept, distinctness, percept_of
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.baking import bake
 from scene2hap.bundle import HapticBundle, Override
@@ -30,10 +30,10 @@ WAYS: dict[str, dict[str, Any]] = {
 }
 
 
-def feels(bundle: HapticBundle, actuator: ActuatorProfile) -> dict[str, Feel]:
+def percepts(bundle: HapticBundle, actuator: ActuatorProfile) -> dict[str, Percept]:
     """Felt frequency, rhythm and level of each source in its first state."""
     first = {source: next(iter(states.values())).tactile for source, states in bundle.loops.items()}
-    return {source: feel_of(clip.samples, clip.sample_rate_hz, actuator) for source, clip in first.items()}
+    return {source: percept_of(clip.samples, clip.sample_rate_hz, actuator) for source, clip in first.items()}
 
 
 def intensities(bundle: HapticBundle) -> dict[str, float]:
@@ -41,16 +41,16 @@ def intensities(bundle: HapticBundle) -> dict[str, float]:
     return {source: bundle.objects[source].states[0].intensity for source in bundle.loops}
 
 
-def keeps_order(felt: Mapping[str, Feel], intensity: Mapping[str, float]) -> bool:
+def keeps_order(felt: Mapping[str, Percept], intensity: Mapping[str, float]) -> bool:
     """Whether, in every pair of sources, the one of higher inferred intensity has the higher felt level."""
     return all(
         felt[one].level_db > felt[other].level_db for one in felt for other in felt if intensity[one] > intensity[other]
     )
 
 
-def described(feel: Feel) -> str:
-    rate = f"{feel.envelope_hz:.1f}" if feel.envelope_hz else "-"
-    return f"{feel.frequency_hz:.0f} / {rate} / {feel.level_db:.1f}"
+def described(percept: Percept) -> str:
+    rate = f"{percept.envelope_hz:.1f}" if percept.envelope_hz else "-"
+    return f"{percept.frequency_hz:.0f} / {rate} / {percept.level_db:.1f}"
 
 
 def cell(pair: Difference) -> str:
@@ -72,7 +72,7 @@ def main() -> None:
     silent = {source: Override(vibrates=False) for source in arguments.silence}
     bundles = {way: bake(scene, {**common, **settings}, overrides=silent) for way, settings in WAYS.items()}
     intensity = intensities(bundles["moved apart"])
-    felt = {way: feels(bundle, actuator) for way, bundle in bundles.items()}
+    felt = {way: percepts(bundle, actuator) for way, bundle in bundles.items()}
 
     print("Dominant frequency [Hz] / envelope rate [Hz] / sensation level [dB]\n")
     print("| source | intensity | wanted level [dB] | " + " | ".join(WAYS) + " | moved [octaves] | moved [dB] |")

@@ -41,7 +41,7 @@ from scene2hap import (
     bake as bake_scene,
 )
 from scene2hap.audio.anchor import anchor_of
-from scene2hap.audio.distinctness import distinctness, feel_of
+from scene2hap.audio.distinctness import distinctness, percept_of
 from scene2hap.audio.felt_loop import Plan, felt_loop
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
@@ -76,8 +76,8 @@ class Kinds:
     @cached_property
     def n_distinct(self) -> tuple[int, int]:
         """Number of pairs, and of pairs that are distinct by the project's own measure."""
-        feels = {name: feel_of(clip.samples, clip.sample_rate_hz) for name, clip in self.loops.items()}
-        pairs = distinctness(feels)
+        percepts = {name: percept_of(clip.samples, clip.sample_rate_hz) for name, clip in self.loops.items()}
+        pairs = distinctness(percepts)
         return len(pairs), sum(pair.is_distinct for pair in pairs)
 
 

@@ -28,8 +28,8 @@ class SourceState:
 
     Parameters:
     name : name of the state, unique within its object.
-    intensity : strength of the vibration at the object itself, 0..1 [-], on a scale where 1 is a washing machine
-        at full spin, 0.5 a ringing phone on the palm, 0.1 a refrigerator's hum.
+    intensity : strength of the vibration at the object itself, above 0, up to 1 [-]: 1 is a washing machine at full
+        spin, 0.5 a ringing phone on the palm, 0.1 a refrigerator's hum.
     sentence : at most 15 words that begin with the category; used to generate sounds.
     keywords : "category verb"; used to search for sounds.
     needs_contact : the object that it must touch to vibrate (a pan on a stove), as an id or in everyday words, which

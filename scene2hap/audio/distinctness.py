@@ -39,8 +39,8 @@ _SURE_DEPTH = 0.25
 
 
 @dataclass(frozen=True)
-class Feel:
-    """Sensation of a source: dominant frequency [Hz], rate of its envelope [Hz] or None, sensation level [dB]."""
+class Percept:
+    """A source as it is felt: dominant frequency [Hz], rate of its envelope [Hz] or None, sensation level [dB]."""
 
     frequency_hz: float
     envelope_hz: float | None
@@ -74,7 +74,7 @@ class Difference:
         return self.without_level if self.fainter_db > FAR_DB else 0.0
 
 
-def feel_of(loop_samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorProfile | None = None) -> Feel:
+def percept_of(loop_samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorProfile | None = None) -> Percept:
     """Return the sensation of a tactile loop (n_samples,) on an actuator.
 
     The dominant frequency is that of the component furthest above its own threshold.
@@ -85,10 +85,10 @@ def feel_of(loop_samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorPr
     if not felt.any():
         raise AudioError("the loop is silent between 10 and 1000 Hz; there is nothing to tell apart.")
     level_db = felt_level_db(x, sample_rate_hz, actuator)
-    return Feel(float(f[np.argmax(felt)]), _envelope_rate_hz(x, sample_rate_hz, _LEAST_DEPTH), level_db)
+    return Percept(float(f[np.argmax(felt)]), _envelope_rate_hz(x, sample_rate_hz, _LEAST_DEPTH), level_db)
 
 
-def difference(first: str, one: Feel, second: str, other: Feel) -> Difference:
+def difference(first: str, one: Percept, second: str, other: Percept) -> Difference:
     """Return the differences of two sources."""
     by_envelope = 0.0
     if one.envelope_hz is not None and other.envelope_hz is not None:
@@ -98,9 +98,9 @@ def difference(first: str, one: Feel, second: str, other: Feel) -> Difference:
     return Difference(first, second, by_frequency, by_envelope, by_level, min(one.level_db, other.level_db))
 
 
-def distinctness(feels: Mapping[str, Feel]) -> tuple[Difference, ...]:
+def distinctness(percepts: Mapping[str, Percept]) -> tuple[Difference, ...]:
     """Return the differences of all pairs of sources, the least distinct first."""
-    pairs = [difference(a, feels[a], b, feels[b]) for a, b in combinations(feels, 2)]
+    pairs = [difference(a, percepts[a], b, percepts[b]) for a, b in combinations(percepts, 2)]
     return tuple(sorted(pairs, key=lambda pair: (pair.is_distinct, pair.without_level)))
 
 

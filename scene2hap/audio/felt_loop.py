@@ -21,7 +21,7 @@ _PEAK = 10 ** (-TACTILE_HEADROOM_DB / 20)
 
 @dataclass(frozen=True, eq=False)
 class SourceClip:
-    """The chosen sound of one state of one source, with its intensity 0..1.
+    """The chosen sound of one state of one source, with its intensity, above 0, up to 1 [-].
 
     group : sources of one group may feel alike: the states of an object, objects of one kind; keep : do not move its
     frequency; pitch_hz : the frequency to which it is moved, None for none. Other sources are moved away from a source
@@ -53,7 +53,7 @@ def plan_scene(
     """Return a plan for each source. Sources are moved apart within the limits if the converter follows targets.
 
     Parameters: standing : loops that do not change, with their groups; the sources are moved away from them, too.
-    Raises: AudioError: an intensity outside 0..1.
+    Raises: AudioError: an intensity that is not above 0, or is more than 1.
     """
     levels = [sensation_level_db(source.intensity) for source in sources]
     analysed = _analysed(sources, levels, actuator)

@@ -60,7 +60,7 @@ def is_noise(sound_peak: float, touch_peak: float, *, is_chosen: bool = False) -
 def sensation_level_db(intensity: float) -> float:
     """Return the planned sensation level of a source of this intensity, for a hand on it [dB].
 
-    Raises: AudioError: the intensity is not within 0..1, or is 0, which has no level.
+    Raises: AudioError: the intensity is not above 0, or is more than 1.
     """
     checked = checks.number("intensity", intensity, "-", above=0.0, at_most=1.0, error=AudioError)
     return FULL_LEVEL_DB + LEVEL_PER_DECADE_DB * math.log10(checked)

@@ -29,8 +29,8 @@ class AudioSource(Protocol):
 class ConversionContext:
     """Data for a converter: the actuator, the intensity, and the frequencies of the source and of its neighbours.
 
-    actuator : the profile to convert for; intensity : of the source, 0..1; neighbours_hz : dominant frequencies of the
-    scene's other sources [Hz]; unused with a `target_hz`, which already takes them into account.
+    actuator : the profile to convert for; intensity : of the source, above 0, up to 1 [-]; neighbours_hz : dominant
+    frequencies of the scene's other sources [Hz]; unused with a `target_hz`, which already takes them into account.
     own_hz : the source's dominant frequency, from an analysis of the whole sound; None to track it while it plays;
     target_hz : the frequency at which the source is to be felt, None if the converter may choose; rough_hz : a stronger
     component that is too low to be felt as a tone, None without one. All [Hz]. band_q : largest Q of a band that holds

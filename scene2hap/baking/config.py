@@ -38,7 +38,7 @@ class BakeConfig(InferenceConfig):
     prices : of models, in US dollars per million tokens read and written (and read from the service's prompt cache),
         in addition to the dated list.
     audio : sound sources, tried in order until `enough_candidates` remain.
-    enough_candidates : number of sounds to choose from; 1 is the paper's rule.
+    enough_candidates : number of sounds to choose from, 1..5; 1 is the paper's rule.
     tactile : the converter of sound into vibration.
     actuator : the actuator that plays the vibration, by name, CSV file or fields.
     spread : how far a source may be moved in frequency and level to be distinct from the others.

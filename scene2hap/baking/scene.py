@@ -30,7 +30,7 @@ from scene2hap.baking.likely_mistakes import (
     warn_of_weak_loops,
 )
 from scene2hap.baking.recorded_times import with_recorded_times
-from scene2hap.baking.sound import Earlier, Progress, Remade, Sounds, make_loops
+from scene2hap.baking.sound import EarlierLoops, Progress, Remade, Sounds, make_loops
 from scene2hap.bundle import HapticBundle, MadeWith, Override
 from scene2hap.bundle.arguments import given_bundle
 from scene2hap.common import checks
@@ -120,10 +120,10 @@ async def bake_inferred(
     earlier: HapticBundle | None = None,
 ) -> HapticBundle:
     """Make the loops of an inferred scene. Returns its bundle, as `bake` after inference. Raises: AudioError."""
-    locked = Earlier()
+    locked = EarlierLoops()
     if earlier is not None:
         loops = {key: loops for key, loops in earlier.loops.items() if key in overrides and overrides[key].locked}
-        locked = Earlier(loops, earlier.choices)
+        locked = EarlierLoops(loops, earlier.choices)
         kept = {key: replace_vibration(inferred[key], earlier.objects[key]) for key in loops if key in inferred}
         inferred = {**inferred, **kept}
     objects, sounds = await _make_loops(inferred, overrides, config, progress, locked, {})
@@ -137,7 +137,7 @@ async def _make_loops(
     overrides: Mapping[str, Override],
     config: BakeConfig,
     progress: Progress | None,
-    earlier: Earlier,
+    earlier: EarlierLoops,
     timed_by: Mapping[str, Mapping[str, HapticLoop]],
 ) -> tuple[dict[str, ObjectHaptics], Sounds]:
     """Return the corrected objects, with the times of recordings, and their loops.
@@ -252,7 +252,7 @@ async def arebake(
     inferred = dict(bundle.objects)
     for key, haptics in inference.objects.items():
         inferred[key] = haptics if key in whole else replace_vibration(bundle.objects[key], haptics)
-    earlier = Earlier(
+    earlier = EarlierLoops(
         bundle.loops,
         bundle.choices,
         chosen_again=again,

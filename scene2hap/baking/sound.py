@@ -60,7 +60,7 @@ _UNCHANGED: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
-class Earlier:
+class EarlierLoops:
     """Loops and sounds of an earlier bundle, and limits on their reuse.
 
     chosen_again : objects whose sounds are chosen again; any_source : keep sounds even if the sound sources have
@@ -104,7 +104,7 @@ async def make_loops(
     overrides: Mapping[str, Override],
     config: BakeConfig,
     progress: Progress | None = None,
-    earlier: Earlier | None = None,
+    earlier: EarlierLoops | None = None,
     inferred: Mapping[str, ObjectHaptics] | None = None,
 ) -> Sounds:
     """Make the loops of all objects.
@@ -114,7 +114,7 @@ async def make_loops(
     the sound itself.
     """
     wanted = [(key, haptics, state) for key, haptics in objects.items() if haptics.vibrates for state in haptics.states]
-    before, tell = earlier or Earlier(), progress or no_progress
+    before, tell = earlier or EarlierLoops(), progress or no_progress
     sounds, chooser = Sounds(), _Chooser(config, overrides, before, inferred or objects)
     parts = []
     for done, (object_id, haptics, state) in enumerate(wanted, start=1):
@@ -201,7 +201,7 @@ class _Chooser:
         self,
         config: BakeConfig,
         overrides: Mapping[str, Override],
-        earlier: Earlier,
+        earlier: EarlierLoops,
         inferred: Mapping[str, ObjectHaptics],
     ) -> None:
         self._config, self._overrides, self._earlier, self._inferred = config, overrides, earlier, inferred

@@ -60,9 +60,9 @@ class Override:
         .ahap) is played unchanged. keep : True if that sound keeps its own frequency and level; the scene's other
         sources are then moved away from it, in frequency and level.
     locked : True if its loops stay unchanged in every later bake.
-    intensity : of the vibration at the object itself, 0..1 [-]; pitch_hz : the frequency of its vibration, 10..1000
-        [Hz]; start_up_s, wind_down_s : its start and stop times, 0..30 [s]. Each is a number for all states or a
-        mapping by state.
+    intensity : of the vibration at the object itself, above 0, up to 1 [-]; pitch_hz : the frequency of its vibration,
+        10..1000 [Hz]; start_up_s, wind_down_s : its start and stop times, 0..30 [s]. Each is a number for all states or
+        a mapping by state.
     state : its state at the start; muted : True if it is silent until a game unmutes it.
     Raises: BundleError: a field of another type or out of bounds. UnknownMaterial.
     """

@@ -14,7 +14,7 @@ import numpy as np
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
-from scene2hap.cli.play import UPDATE_S, Actuator, silence
+from scene2hap.cli.play import UPDATE_S, SinkOutput, silence
 from scene2hap.cli.shared_options import given_spec, session_config
 from scene2hap.common import checks
 from scene2hap.devices import SINKS
@@ -48,7 +48,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     bundle = HapticBundle.load(arguments.bundle)
     config = session_config(arguments.settings, bundle, prepare="blocking")
     wav = WavSink(arguments.output) if arguments.output else None
-    actuator = Actuator(wav or SINKS.build(given_spec("--sink", arguments.sink)))
+    actuator = SinkOutput(wav or SINKS.build(given_spec("--sink", arguments.sink)))
     with HapticSession(bundle, config=config, hands=(HAND,), sink=actuator.sink, user=arguments.profile) as session:
         silence(session, [], [arguments.id])
         session.set_source(arguments.id, state=arguments.state, mute=False)
@@ -78,7 +78,7 @@ def _why_silent(haptics: ObjectHaptics, name: str | None) -> str:
     return "its level is too low to be felt"
 
 
-def _play(session: HapticSession, touch: Touch, actuator: Actuator, seconds: float) -> None:
+def _play(session: HapticSession, touch: Touch, actuator: SinkOutput, seconds: float) -> None:
     end_s = time.monotonic() + seconds
     while time.monotonic() < end_s:
         session.update(touches=[touch])

@@ -123,7 +123,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     gain = verb("gain", "set the level of an object at the hand", _overridden)
     gain.add_argument("gain_db", metavar="DB", type=float, help="relative to the inferred level")
     intensity = verb("intensity", "set the strength of an object's vibration, and make its loops again", _remade)
-    intensity.add_argument("intensity", metavar="VALUE", type=float, help="0..1; a ringing phone has 0.5")
+    intensity.add_argument("intensity", metavar="VALUE", type=float, help="above 0, up to 1; a ringing phone has 0.5")
     pitch = verb("pitch", "set the frequency of an object's vibration, and make its loops again", _remade)
     pitch.add_argument("pitch_hz", metavar="HZ", type=float, help="within the band of the actuator")
     start = verb("start", "set the time that a source needs to start after it is switched on", _overridden)

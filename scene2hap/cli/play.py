@@ -55,7 +55,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     bundle = HapticBundle.load(arguments.bundle)
     config = session_config(arguments.settings, bundle)
     sink = SINKS.build(given_spec("--sink", arguments.sink))
-    actuator = Actuator(sink)
+    actuator = SinkOutput(sink)
     width, height = shutil.get_terminal_size()
     # Besides the plan, the screen has a line for each source, one for the hand, one for the actuator, and a free one.
     player = Player(bundle, n_columns=max(_LEAST, width - 1), n_rows=max(_LEAST, height - len(bundle.loops) - 3))
@@ -92,7 +92,7 @@ def silence(session: HapticSession, muted: Sequence[str], solo: Sequence[str]) -
             session.set_source(source_id, mute=False)
 
 
-class Actuator:
+class SinkOutput:
     """Output of the mix. `problem` is a message about the sink for the user, "" for none."""
 
     def __init__(self, sink: object) -> None:

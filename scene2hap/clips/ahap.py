@@ -21,7 +21,16 @@ from typing import Any
 import numpy as np
 
 from scene2hap.clips.fields import Fields, read_fields, rising_times
-from scene2hap.clips.haptic_clip import MAX_CLIP_S, MAX_POINTS, About, ClipWarning, Curve, HapticClip, Transient, Values
+from scene2hap.clips.haptic_clip import (
+    MAX_CLIP_S,
+    MAX_POINTS,
+    ClipMetadata,
+    ClipWarning,
+    Curve,
+    HapticClip,
+    Transient,
+    Values,
+)
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import ClipError
 
@@ -125,7 +134,7 @@ def read_ahap(path: Path) -> HapticClip:
         raise ClipError(f"{path}: Pattern has no haptic event; it must have at least one.")
     dips = {one.time_s for one in transients} if len(parts) > 1 else set()
     amplitude = _amplitude(main, dips, transients)
-    return HapticClip(amplitude, _frequency(main), transients, about=About(editor=""))
+    return HapticClip(amplitude, _frequency(main), transients, about=ClipMetadata(editor=""))
 
 
 def compose_ahap(clip: HapticClip) -> dict[str, dict[str, Any]]:

@@ -92,7 +92,7 @@ class Transient:
 
 
 @dataclass(frozen=True)
-class About:
+class ClipMetadata:
     """Metadata of a clip: program, author, source, project, tags, description."""
 
     editor: str = "scene2hap"
@@ -124,7 +124,7 @@ class HapticClip:
     frequency: Curve | None = None
     transients: tuple[Transient, ...] = ()
     range_hz: tuple[float, float] = RANGE_HZ
-    about: About = field(default_factory=About)
+    about: ClipMetadata = field(default_factory=ClipMetadata)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "transients", tuple(self.transients))

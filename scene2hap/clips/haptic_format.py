@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from scene2hap.clips.fields import Fields, read_fields, rising_times
-from scene2hap.clips.haptic_clip import MAX_POINTS, About, ClipWarning, Curve, HapticClip, Transient
+from scene2hap.clips.haptic_clip import MAX_POINTS, ClipMetadata, ClipWarning, Curve, HapticClip, Transient
 from scene2hap.common.warning import warn_of
 
 SUFFIX = ".haptic"
@@ -108,9 +108,9 @@ def _emphasis(fields: Fields, time_s: float, level: float) -> Transient:
     return Transient(time_s, amplitude, frequency)
 
 
-def _about(fields: Fields) -> About:
+def _about(fields: Fields) -> ClipMetadata:
     if "metadata" not in fields:
-        return About(editor="")
+        return ClipMetadata(editor="")
     metadata = fields.within("metadata")
     names = ("editor", "author", "source", "project", "description")
-    return About(tags=metadata.texts("tags"), **{name: metadata.text(name) for name in names})
+    return ClipMetadata(tags=metadata.texts("tags"), **{name: metadata.text(name) for name in names})

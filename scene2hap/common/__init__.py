@@ -1,1 +1,1 @@
-"""Checks, files, keys and messages: what every layer uses, and what knows nothing of scenes or vibration."""
+"""Checks, files, keys and messages for every layer, independent of scenes and vibration."""

@@ -21,7 +21,7 @@ from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.level import Rest
 from scene2hap.contact.pair import rest_of, support_normal
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m
-from scene2hap.contact.track import Standing, Track
+from scene2hap.contact.track import SupportFace, Track
 from scene2hap.scene.pose import Pose
 
 _SURE_M = -TOUCH_M + 0.001
@@ -170,7 +170,7 @@ def _all_in(support: Body, floor_m: float) -> tuple[Plane, ...]:
     )
 
 
-def _standing(body: Body, resting: Resting) -> Standing:
+def _standing(body: Body, resting: Resting) -> SupportFace:
     """Return the face of a support in world coordinates, and the bounds of a body's rest on it."""
     support, up, is_on_ledge = resting.support, body.up_axis, resting.rest.on_ledge
     face = resting.space.ledge_face if is_on_ledge else support.stance.top_face
@@ -180,7 +180,7 @@ def _standing(body: Body, resting: Resting) -> Standing:
     # `is_over` is sure if the bottom is clearly higher or the body inside the support (`_all_in`); else middles decide.
     is_beyond = least_m > support.low[up] + TOUCH_M or least_m < support.high[up] - TOUCH_M
     is_sure = is_on_ledge and is_beyond
-    return Standing(
+    return SupportFace(
         [(nu, nv, offset + nu * u + nv * v) for nu, nv, offset in face.edges],
         support.position_m[up] + face.height,
         _SURE_M,

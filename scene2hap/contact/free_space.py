@@ -19,7 +19,7 @@ from scene2hap.contact.geometry.planes import Plane, floor_at, roof_at, wall_at
 from scene2hap.contact.geometry.triangle_tree import meeting
 from scene2hap.contact.geometry.vectors import AABB, Indices, Marks
 from scene2hap.contact.lazy import lazy
-from scene2hap.contact.ledge import Flat, FreeRegion, Upright
+from scene2hap.contact.ledge import Flat, FreeRegion, VerticalAxis
 from scene2hap.contact.mesh_distance import INSET, INSET_M
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m, is_over, play_reach_m
 from scene2hap.contact.stance import TopFace
@@ -127,7 +127,7 @@ class FreeSpace:
         )
 
 
-def _turn(host: Body, own: Upright) -> tuple[float, float, float, float]:
+def _turn(host: Body, own: VerticalAxis) -> tuple[float, float, float, float]:
     """Return the components of u (a, b) and of v (c, d) along the world's two level axes."""
     first, second = host.stance.rows[0], host.stance.rows[3 - host.up_axis]
     return first[own.u], second[own.u], first[own.v], second[own.v]
@@ -138,7 +138,7 @@ def _reach_m(guest: Body) -> float:
     return max(TOUCH_M, play_reach_m(guest.size_m), hang_reach_m(guest.size_m))
 
 
-def _foot(guest: Body, host: Body, own: Upright) -> Flat:
+def _foot(guest: Body, host: Body, own: VerticalAxis) -> Flat:
     """Return a rectangle (u, v) around a guest's base face, a little smaller, so that a foot flush with a rim fits."""
     v_axis = 3 - guest.up_axis
     x, y = guest.position_m[0] - host.position_m[0], guest.position_m[v_axis] - host.position_m[v_axis]
@@ -154,14 +154,14 @@ def _foot(guest: Body, host: Body, own: Upright) -> Flat:
     return (u0 + hu, v0 + hv, u1 - hu, v1 - hv)
 
 
-def _empty_region(host: Body, own: Upright, taken: AABB) -> FreeRegion | None:
+def _empty_region(host: Body, own: VerticalAxis, taken: AABB) -> FreeRegion | None:
     """Return a region around `taken` in which the host has nothing, None if `taken` is not empty."""
     if len(_triangles_in(host, own, taken, most=1)):
         return None
     return FreeRegion(own, _Surroundings(host, own, taken).cut(taken), None, _NO_LEDGE)
 
 
-def _computed_region(host: Body, own: Upright, taken: AABB, foot: Flat) -> FreeRegion | None:
+def _computed_region(host: Body, own: VerticalAxis, taken: AABB, foot: Flat) -> FreeRegion | None:
     """Search the host's triangles. Returns None unless `taken` is empty or has one ledge under `foot`."""
     columns = _triangles_in(host, own, taken)
     if not len(columns):
@@ -182,7 +182,7 @@ def _computed_region(host: Body, own: Upright, taken: AABB, foot: Flat) -> FreeR
     return FreeRegion(own, box, top_m, ledges.stretch(number, foot, most))
 
 
-def _triangles_in(host: Body, own: Upright, box: AABB, most: int = _ALL) -> Indices:
+def _triangles_in(host: Body, own: VerticalAxis, box: AABB, most: int = _ALL) -> Indices:
     """Return the columns of up to `most` of the host's triangles whose boxes overlap a box (u, v, h)."""
     (u0, v0, h0), (u1, v1, h1) = box
     if own.sign < 0:
@@ -199,7 +199,7 @@ def _triangles_in(host: Body, own: Upright, box: AABB, most: int = _ALL) -> Indi
 class _Surroundings:
     """The host's triangles around a guest: their `columns`, and the corners (3, n) of their boxes as (u, v, h)."""
 
-    def __init__(self, host: Body, own: Upright, taken: AABB) -> None:
+    def __init__(self, host: Body, own: VerticalAxis, taken: AABB) -> None:
         (u0, v0, h0), (u1, v1, h1) = taken
         d = _AROUND_M
         around = (u0 - d, v0 - d, h0 - d), (u1 + d, v1 + d, h1 + d)

@@ -32,7 +32,7 @@ _MOST_REGIONS = 64  # of one host
 _MOST_GUESTS = 256  # of which one host knows the latest region
 
 
-class Upright(NamedTuple):
+class VerticalAxis(NamedTuple):
     """The vertical axis of a shape's frame (0, 1 or 2), its sign (1 if it points up, -1 down), and the two others."""
 
     axis: int
@@ -49,7 +49,7 @@ class Ledges:
     `heights` the heights of the ledges, ascending.
     """
 
-    def __init__(self, triangles: Floats, boxes: Boxes, upright: Upright, uneven_m: float) -> None:
+    def __init__(self, triangles: Floats, boxes: Boxes, upright: VerticalAxis, uneven_m: float) -> None:
         axis, sign, *plane = upright
         low, high = boxes.low[axis], boxes.high[axis]
         top = high if sign > 0 else -low
@@ -106,7 +106,7 @@ class FreeRegion(NamedTuple):
     `ledge`, and nothing above that height.
     """
 
-    own: Upright
+    own: VerticalAxis
     box: AABB
     top_m: float | None
     ledge: Flat

@@ -50,7 +50,7 @@ class Gap(NamedTuple):
     way_m: Triple
 
 
-class Ends(NamedTuple):
+class ContactPoint(NamedTuple):
     """A contact point: its end points on the surfaces of a and of b in the world [m]."""
 
     on_a_m: Triple
@@ -88,7 +88,7 @@ class MeshPair:
         sign = 1.0 if self.guest_is_a else -1.0
         return Gap(distance, rotated(self._rows, (sign * (u - x), sign * (v - y), sign * (w - z))))
 
-    def patch(self, way_m: Triple, within_m: float) -> list[Ends]:
+    def patch(self, way_m: Triple, within_m: float) -> list[ContactPoint]:
         """Return the contact manifold that results when `a` moves by `way_m` [m] in the world.
 
         These are up to `spread.MAX_POINTS` points, far from each other, at which the moved surfaces are at most
@@ -100,7 +100,7 @@ class MeshPair:
             self.host.shape, self.guest.shape, self._turn, self._shift, way, max(within_m, ROUNDING_M)
         )
         ends = [(self._placed(on_guest), self._placed(on_host)) for on_guest, on_host in found]
-        return [Ends(*pair) if self.guest_is_a else Ends(*reversed(pair)) for pair in ends]
+        return [ContactPoint(*pair) if self.guest_is_a else ContactPoint(*reversed(pair)) for pair in ends]
 
     def drops(self, faller: Body, reach_m: float, touch_m: float) -> Floats | None:
         """Return the fall distance of each triangle (m,) of `faller`, one of the two, onto the other [m].

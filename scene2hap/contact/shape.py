@@ -18,7 +18,7 @@ from scene2hap.contact.geometry.rays import first_hits
 from scene2hap.contact.geometry.triangle_tree import TriangleTree
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.lazy import lazy
-from scene2hap.contact.ledge import Ledges, Upright
+from scene2hap.contact.ledge import Ledges, VerticalAxis
 from scene2hap.scene.shapes import TriMesh
 
 # Up directions for which a shape caches faces. A tumbling object has more of them, which clears the cache.
@@ -46,7 +46,7 @@ class Shape:
         self.half: Triple = triples((self.high - self.low)[None] / 2)[0]
         self._base_faces: dict[Triple, BaseFace] = {}
         self._tops: dict[Triple, tuple[Triple, ...] | None] = {}
-        self._ledges: dict[Upright, Ledges] = {}
+        self._ledges: dict[VerticalAxis, Ledges] = {}
         self._radii: dict[int, float] = {}
 
     @lazy
@@ -109,7 +109,7 @@ class Shape:
             self._radii[axis] = float(np.hypot(across[:, 0], across[:, 1]).max(initial=0.0))
         return self._radii[axis]
 
-    def ledges(self, upright: Upright) -> Ledges:
+    def ledges(self, upright: VerticalAxis) -> Ledges:
         """Return the level faces while one of the shape's axes points up or down."""
         found = self._ledges.get(upright)
         if found is None:

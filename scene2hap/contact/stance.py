@@ -16,7 +16,7 @@ from scene2hap.contact.geometry.planes import Footprint
 from scene2hap.contact.geometry.polygons import Point, edges_of, turned_outline
 from scene2hap.contact.geometry.vectors import Rows, Triple, rotated
 from scene2hap.contact.lazy import lazy
-from scene2hap.contact.ledge import Upright
+from scene2hap.contact.ledge import VerticalAxis
 from scene2hap.contact.shape import Shape
 
 # Digits to which the upward direction is rounded before level faces are searched. Rounding in a game, or jitter of an
@@ -52,7 +52,7 @@ class TopFace(NamedTuple):
 class Tilt(NamedTuple):
     """The vertical axis of a shape's frame, and its tilt from the vertical [rad]."""
 
-    own: Upright
+    own: VerticalAxis
     tilt: float
 
 
@@ -143,10 +143,10 @@ class Stance:
         axis = max(range(3), key=lambda k: abs(up[k]))
         u, v = (k for k in range(3) if k != axis)
         tilt = math.hypot(up[u], up[v])
-        return Tilt(Upright(axis, 1 if up[axis] > 0 else -1, u, v), tilt) if tilt <= _MOST_LEAN else None
+        return Tilt(VerticalAxis(axis, 1 if up[axis] > 0 else -1, u, v), tilt) if tilt <= _MOST_LEAN else None
 
     @lazy
-    def upright(self) -> Upright | None:
+    def upright(self) -> VerticalAxis | None:
         """The vertical axis of the shape's frame, None if it leans so much that its level faces have no one height."""
         lean = self.lean
         return lean.own if lean is not None and lean.tilt * self.shape.size_m <= _MOST_TILT_M else None

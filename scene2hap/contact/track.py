@@ -22,7 +22,7 @@ SURELY_M = 1e-9
 """How far inside all edges a base face must be, so that `rest_on` surely finds it inside as well."""
 
 
-class Standing(NamedTuple):
+class SupportFace(NamedTuple):
     """The face that carries a body's whole base face, and the bounds of its rest. All in the world [m].
 
     edges : (n_u, n_v, offset) of the face; top_m : its height; least_m, most_m : bounds of the fall distance;
@@ -47,7 +47,7 @@ Moved = tuple[Triple, Triple, tuple[Triple, ...]]
 class Track:
     """A certified body, at its last rotation, on a support or in the air. `keep_in` must set its bounds first."""
 
-    def __init__(self, stance: Stance, standing: Standing | None) -> None:
+    def __init__(self, stance: Stance, standing: SupportFace | None) -> None:
         self.stance: Stance = stance
         self._standing = standing
         self._bounds: tuple[Flat, tuple[float, float], Sequence[Wall]]

@@ -28,7 +28,7 @@ from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.auto_level import peak_level_db
-from scene2hap.propagation.auto_rungs import Choice, Situation, body_of
+from scene2hap.propagation.auto_rungs import Choice, PlateCase, body_of
 from scene2hap.propagation.bands.sampling import SPACING
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import Joint
@@ -83,7 +83,7 @@ class AutoFidelity(PhysicalModel):
         scene = assemble(network, excitations, bands, self.contact, self.outside_domain)
         choices = {key: Choice(key, "rigid", 0.0, "a source, or so stiff that every rung is") for key in scene.rigid}
         for object_id in sorted(scene.plates):
-            choices[object_id] = self._situation(scene, object_id).choose(object_id, self.tolerance_db)
+            choices[object_id] = self._case(scene, object_id).choose(object_id, self.tolerance_db)
         elastic = {
             key: body_of(choices[key].rung, plate, scene.top_hz, floored_loss(plate, self.loss_floor))
             for key, plate in scene.plates.items()
@@ -94,8 +94,8 @@ class AutoFidelity(PhysicalModel):
 
     def choose(self, plate: Plate, max_frequency_hz: float) -> Choice:
         """Choose the model of a single plate, for frequencies up to `max_frequency_hz` [Hz]."""
-        situation = Situation(plate, floored_loss(plate, self.loss_floor), max_frequency_hz)
-        return situation.choose("plate", self.tolerance_db, may_be_infinite=False)
+        case = PlateCase(plate, floored_loss(plate, self.loss_floor), max_frequency_hz)
+        return case.choose("plate", self.tolerance_db, may_be_infinite=False)
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
         """Return a plate as a body for coupling up to `max_frequency_hz` [Hz], of the rung of `choose`."""
@@ -108,14 +108,12 @@ class AutoFidelity(PhysicalModel):
         f = off_zero(plate, f)
         return self.elastic_body(plate, float(f.max(initial=1e-9))).receptance(points_m, drive_m, f)[:, :, 0].T
 
-    def _situation(self, scene: Assembly, object_id: str) -> Situation:
+    def _case(self, scene: Assembly, object_id: str) -> PlateCase:
         plate, pushing = scene.plates[object_id], scene.beside[object_id]
-        situation = Situation(
-            plate, floored_loss(plate, self.loss_floor), scene.top_hz, load_kg=load_kg(scene, object_id)
-        )
+        case = PlateCase(plate, floored_loss(plate, self.loss_floor), scene.top_hz, load_kg=load_kg(scene, object_id))
         mass_kg = {item.source_id: item.mass_kg for item in scene.excitations}
         if not pushing.keys() <= mass_kg.keys():
-            return situation  # the motion of an object that is no source is unknown before the scene is solved
+            return case  # the motion of an object that is no source is unknown before the scene is solved
         own_hz = [
             edge
             for item in scene.excitations
@@ -125,8 +123,8 @@ class AutoFidelity(PhysicalModel):
         pushed_by = [(mass_kg[key], several) for key, several in pushing.items()]
         joints = [joint for several in pushing.values() for joint in several]
         places = [joint.point_a_m if joint.a == object_id else joint.point_b_m for joint in joints]
-        peak = peak_level_db(plate, situation.loss_factor, pushed_by, places, scene.bands, own_hz)
-        return replace(situation, peak_db=peak)
+        peak = peak_level_db(plate, case.loss_factor, pushed_by, places, scene.bands, own_hz)
+        return replace(case, peak_db=peak)
 
     def _density(self) -> float:
         """Density of frequencies relative to that of `sampling`, for `SAMPLING_SHARE` of the tolerance."""

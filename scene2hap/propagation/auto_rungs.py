@@ -66,9 +66,12 @@ class Choice:
 
 
 @dataclass(frozen=True)
-class Situation:
-    """Input of a choice: a plate, its loss factor [-], the top frequency [Hz], a bound on its gain [dB] (`auto_level`),
-    infinite if unknown, and the mass that others may pull it with at the top frequency [kg]."""
+class PlateCase:
+    """A plate for which a rung is chosen.
+
+    top_hz : highest frequency of the bands [Hz]; peak_db : bound on the gain (`auto_level`), infinite if unknown [dB];
+    load_kg : largest mass with which other objects may pull at it at `top_hz` [kg].
+    """
 
     plate: Plate
     loss_factor: float

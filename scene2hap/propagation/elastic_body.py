@@ -18,7 +18,7 @@ from scene2hap.common.arrays import Complex, Floats
 
 AnyFloat = TypeVar("AnyFloat", np.float32, np.float64)
 
-Pairs = Callable[[Floats], Floats]
+DeflectionFunction = Callable[[Floats], Floats]
 """Function from points (n_points, 2) [m] to deflections (n_points, 2 n_frequencies), with real and imaginary parts
 alternating."""
 
@@ -91,7 +91,7 @@ class HasResponseBasis(Protocol):
 class Contractible(Protocol):
     """A body without a `ResponseBasis` that can sum over known forces before the touched point is known."""
 
-    def under(self, forces_m: Floats, frequencies_hz: Floats, forces: Complex) -> Pairs:
+    def under(self, forces_m: Floats, frequencies_hz: Floats, forces: Complex) -> DeflectionFunction:
         """Deflection under forces (n_forces, n_frequencies) at points (n_forces, 2) [m]."""
         ...
 
@@ -114,7 +114,7 @@ def pieces(
     return iter([(slice(None), np.ascontiguousarray(body.receptance(points_m, forces_m, frequencies_hz)))])
 
 
-def contracted(body: ElasticBody, forces_m: Floats, frequencies_hz: Floats, forces: Complex) -> Pairs:
+def contracted(body: ElasticBody, forces_m: Floats, frequencies_hz: Floats, forces: Complex) -> DeflectionFunction:
     """Deflection under known forces as a function of points, see `Contractible.under`; other bodies sum over contacts
     at each query."""
     if len(frequencies_hz) <= MOST_CONTRACTED:

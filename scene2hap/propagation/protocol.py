@@ -200,7 +200,11 @@ class PropagationModel(Protocol):
     """Interface of propagation models: `prepare` solves a scene once and returns a field that is queried often."""
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands, /) -> PropagationField:
-        """Prepare the field of a whole scene, over as many contacts as the model allows."""
+        """Prepare the field of a whole scene, over as many contacts as the model allows.
+
+        Parameters: network : bodies and contacts; excitations : the sources; bands : of the gains.
+        Returns: the field, for any number of queries. Raises: ModelDomainError: the model does not hold in this scene.
+        """
         ...
 
 

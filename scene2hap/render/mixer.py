@@ -46,7 +46,7 @@ class MixerStats:
 
 
 @dataclass(eq=False, slots=True)
-class Change:
+class GainChange:
     """Gains that wait for their frame."""
 
     at_frame: int
@@ -62,7 +62,7 @@ class Playhead:
     """
 
     def __init__(
-        self, mix: TactileMix, upsampler: Upsampler, incoming: deque[Change], rates_hz: tuple[int, int]
+        self, mix: TactileMix, upsampler: Upsampler, incoming: deque[GainChange], rates_hz: tuple[int, int]
     ) -> None:
         self.position: int = 0
         self._mix, self._upsampler, self._incoming = mix, upsampler, incoming
@@ -145,8 +145,8 @@ class Mixer:
         self._delay_s = upsampler.delay_s
         ramp = max(1, round(ramp_s * bank.sample_rate_hz))
         self._mix = TactileMix(bank, n_hands, ramp, upsampler.cell, is_skipping=skip_silent)
-        self._incoming: deque[Change] = deque()
-        self._latest: Change | None = None
+        self._incoming: deque[GainChange] = deque()
+        self._latest: GainChange | None = None
         self._playhead = Playhead(self._mix, upsampler, self._incoming, (bank.sample_rate_hz, sample_rate_hz))
 
     @property
@@ -182,10 +182,10 @@ class Mixer:
             latest.gains = checked_gains
             if self._is_waiting(latest):
                 return
-        self._latest = Change(at_frame, checked_gains)
+        self._latest = GainChange(at_frame, checked_gains)
         self._incoming.append(self._latest)
 
-    def _is_waiting(self, change: Change) -> bool:
+    def _is_waiting(self, change: GainChange) -> bool:
         try:
             return self._incoming[-1] is change
         except IndexError:

@@ -31,7 +31,7 @@ from scene2hap.report.account import account_table
 from scene2hap.report.felt_map import MODELS, FeltMap, felt_map, prepared_session
 from scene2hap.report.felt_paths import ScenePaths
 from scene2hap.report.omitted_objects import left_out
-from scene2hap.report.sounds import Pairs
+from scene2hap.report.sounds import LoopPairs
 from scene2hap.report.surface_points import MOST_POINTS
 from scene2hap.report.walls import Direction, shells, walls
 from scene2hap.scene.objects import SceneObject
@@ -84,7 +84,7 @@ def report_document(
     scene_paths = ScenePaths(bundle)
     felt = felt_map(bundle, models, scene_paths=scene_paths, shells=whole, most_points=most_points)
     looks = {} if pictures is None else {item.id: item for item in pictures.objects}
-    loops = Pairs()
+    loops = LoopPairs()
     objects = [_object(bundle, item, looks.get(item.id), meshes, loops, hides) for item in scene.objects]
     made = bundle.made_with
     return {
@@ -116,7 +116,7 @@ def _object(
     item: SceneObject,
     looks: SceneObject | None,
     meshes: dict[str, int],
-    loops: Pairs,
+    loops: LoopPairs,
     hides: Mapping[str, Direction | None],
 ) -> dict[str, Any]:
     haptics = bundle.objects.get(item.id)
@@ -150,7 +150,7 @@ _NOTHING_INFERRED: Mapping[str, Any] = {
 }
 
 
-def _inferred(bundle: HapticBundle, item: SceneObject, haptics: ObjectHaptics, loops: Pairs) -> dict[str, Any]:
+def _inferred(bundle: HapticBundle, item: SceneObject, haptics: ObjectHaptics, loops: LoopPairs) -> dict[str, Any]:
     return {
         "vibrates": haptics.vibrates,
         "category": haptics.object_category,
@@ -226,7 +226,7 @@ def _editable(bundle: HapticBundle, item: SceneObject, haptics: ObjectHaptics) -
     }
 
 
-def _state(bundle: HapticBundle, object_id: str, state: SourceState, loops: Pairs) -> dict[str, Any]:
+def _state(bundle: HapticBundle, object_id: str, state: SourceState, loops: LoopPairs) -> dict[str, Any]:
     loop = bundle.loops.get(object_id, {}).get(state.name)
     felt = None if loop is None or loop.felt is None else loop.felt
     return {

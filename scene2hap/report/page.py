@@ -22,7 +22,7 @@ def assemble(document: Mapping[str, Any]) -> str:
     try:
         text = json.dumps(document, allow_nan=False, separators=(",", ":"))
     except ValueError as cause:
-        raise ConfigError(f"the report has a number that JSON has not: {cause}.") from cause
+        raise ConfigError(f"the report has a number that JSON cannot hold: {cause}.") from cause
     # Escaped, so that no text can end the script element or begin a comment.
     data = text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
     before, marker, behind = _template().partition(_DATA)

@@ -34,7 +34,7 @@ _VIRIDIS = np.array(
 )
 
 
-class Pairs:
+class LoopPairs:
     """Sounds and tactile loops of states, each once, since copies of an object share theirs."""
 
     def __init__(self) -> None:

@@ -79,12 +79,13 @@ class SessionConfig(Settings):
     prepare : "background": a worker prepares the model while the last field stays in use, and `update` never waits;
         "blocking": `update` waits, so that output depends on input alone. A model with a live field, such as
         `ExponentialPlate`, needs no preparation.
-    gain_limit_db : upper bound of the gain of one source at a hand, None for no bound.
-    sample_rate_hz : rate of the samples that `render` returns and sinks get.
-    tactile_rate_hz : rate at which loops are mixed; the sample rate if that is lower. The mix of the hands is then
-        resampled once. At least 2.5 times the highest band edge.
-    control_period_s : usual time between updates; gain changes are ramped over it, and over at least 10 ms.
-    watchdog_s : time without an update after which a sink with a clock of its own fades to zero.
+    gain_limit_db : upper bound of the gain of one source at a hand, up to 120 [dB]; None for no bound.
+    sample_rate_hz : rate of the samples that `render` returns and sinks get, 1000..192000 [Hz].
+    tactile_rate_hz : rate at which loops are mixed, 1000..192000 [Hz]; the sample rate if that is lower. The mix of
+        the hands is then resampled once. At least 2.5 times the highest band edge.
+    control_period_s : usual time between updates, above 0, up to 1 [s]; gain changes are ramped over it, and over at
+        least 10 ms.
+    watchdog_s : time without an update after which a sink with a clock of its own fades to zero, 0.02..1 [s].
     actuator : the actuator in use, which gives the safety layer its limits: a name, a CSV file of Hz and dB, fields, or
         an ActuatorProfile. A session whose settings name none plays on the actuator that its bundle was made for.
     skip : work to skip: True for all of it, False for none, or a SkipConfig or its settings.

@@ -56,6 +56,7 @@ def play_track(
 ) -> None:
     """Play a track on a started session and into its sink, like a game with `update_rate_hz` frames per second.
 
+    Parameters: on_frame : called with each frame after it was played.
     Raises: SessionError, UnknownObject: a step names an unknown hand, object or state (states are checked in their
     turn, all others before the first frame); SessionError: a rate outside of 1 to `MAX_UPDATE_RATE_HZ`.
     """

@@ -12,7 +12,7 @@ from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.auto import AutoFidelity, load_kg
 from scene2hap.propagation.auto_level import peak_level_db
-from scene2hap.propagation.auto_rungs import FLOOR_DB, RUNGS, Situation
+from scene2hap.propagation.auto_rungs import FLOOR_DB, RUNGS, PlateCase
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import Joint
 from scene2hap.propagation.coupled.substructuring import assemble
@@ -119,8 +119,8 @@ def test_plate_and_bands_decide_the_rung(plate: Plate, bands: Bands, rung: str) 
 def test_a_tighter_tolerance_never_chooses_a_cheaper_rung() -> None:
     for plate in (Plate(1.2, 0.7, 0.025, OAK), Plate(0.5, 0.4, 0.002, STEEL, "CFFS"), Plate(0.3, 0.2, 0.02, OAK)):
         for top_hz in (30.0, 200.0, 1000.0):
-            situation = Situation(plate, 0.01, top_hz)
-            chosen = [situation.choose("x", tolerance) for tolerance in (6.0, 3.0, 1.0, 0.5, 0.1)]
+            case = PlateCase(plate, 0.01, top_hz)
+            chosen = [case.choose("x", tolerance) for tolerance in (6.0, 3.0, 1.0, 0.5, 0.1)]
             places = [RUNGS.index(choice.rung) for choice in chosen]
             assert places == sorted(places)
             assert chosen[-1].bound_db <= 0.1

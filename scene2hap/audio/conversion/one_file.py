@@ -107,8 +107,8 @@ def convert(
     source : WAV, FLAC, Ogg, MP3, AIFF, AU, CAF or Opus of any length; silence packed into few bytes is refused.
     output : its suffix (`FORMATS`) chooses the format.
     converter : a kind, a mapping with a `kind` and its settings, or an instance; each channel gets its own stream.
-    actuator : a profile, its name, or a CSV file of its response, which is compensated; intensity : of the source, 0..1
-    [-], which sets the sensation level (`sensation_level_db`).
+    actuator : a profile, its name, or a CSV file of its response, which is compensated; intensity : of the source,
+    above 0, up to 1 [-], which sets the sensation level (`sensation_level_db`).
     mono : mix the channels by their mean first, or take the strongest if they cancel each other; overwrite : replace
     files that exist.
     picture : a PNG to draw: spectrograms before and after, and both envelopes; raw : apply the converter alone, without

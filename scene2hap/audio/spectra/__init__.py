@@ -1,1 +1,1 @@
-"""Spectra of sounds: their window, their components, and what of them is heard."""
+"""Spectra of sounds: their window, their components, and their audible part."""

@@ -24,7 +24,7 @@ from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.spectra.heard import heard_sections
 from scene2hap.audio.tactile.adaptive import Adaptive, band_around
 from scene2hap.audio.tactile.envelope import EnvelopeCarrier
-from scene2hap.audio.tactile.following import HEADROOM_DB, Following
+from scene2hap.audio.tactile.following import HEADROOM_DB, LevelFollower
 from scene2hap.audio.tactile.onsets import WithOnsets
 from scene2hap.audio.tactile.roughness import Roughened
 from scene2hap.audio.tactile.stages import Chain, Scaled, SosStage, Stage, StageStream, WholeSteps
@@ -66,7 +66,7 @@ class Auto(Adaptive):
         bed_db = context.band_db if is_known else _LIVE_DB
         felt_hz = (context.target_hz or context.own_hz) if is_known else carrier_hz(context)
         rendered = None if is_known else _rendered(context.actuator, sample_rate_hz)
-        bed = Following(bed, sample_rate_hz, bed_db, felt_hz, is_live=not is_known, rendered=rendered)
+        bed = LevelFollower(bed, sample_rate_hz, bed_db, felt_hz, is_live=not is_known, rendered=rendered)
         onsets = WithOnsets(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known, bed_db=context.band_db)
         parts: list[Stage] = [WholeSteps(onsets.step), SosStage(heard_sections(sample_rate_hz)), onsets]
         if bed_db is None:

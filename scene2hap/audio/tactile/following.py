@@ -52,7 +52,7 @@ NOTHING = 1e-12
 """Energy below which there is neither sound nor bed (-120 dB re full scale)."""
 
 
-class Following(Stage):
+class LevelFollower(Stage):
     """Keeps the level of a bed at a constant difference from that of its sound.
 
     If `felt_hz` is given, a sine of this frequency replaces a bed that is too weak. If the stream is live, each gain

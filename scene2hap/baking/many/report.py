@@ -15,7 +15,7 @@ Outcome = Literal["baked", "kept", "failed"]
 @clear_attributes
 @dataclass(frozen=True)
 class SceneReport:
-    """One scene.
+    """The result of one scene.
 
     Parameters: outcome : "baked"; "kept" if file and settings are unchanged since an earlier run; or "failed";
     seconds : by stage: "baking" in a worker, and with a model also "reading" and "inference"; calls : number of

@@ -130,6 +130,7 @@ def infer_haptics(
     Where an event loop runs, use `infer_scene`.
 
     Parameters: scene : a snapshot or the path of a scene file; backend : a backend, its kind, or a mapping with a kind.
+    Raises: as `infer_scene`.
     """
     built = cast("LLMBackend", BACKENDS.build(backend))  # `infer_scene` checks it
     running = infer_scene(given_scene(scene), built, user_prompt=user_prompt, config=config)

@@ -48,17 +48,17 @@ class BoxMotions:
     """The motions of a rigid body: translations along its principal axes and rotations about them."""
 
     def __init__(self, body: RigidMotion) -> None:
-        assert body.spread is not None
-        self._mass_kg, self._spread = body.mass_kg, body.spread
-        x, y, z = body.spread.squares_m2
+        assert body.mass_distribution is not None
+        self._mass_kg, self._mass_distribution = body.mass_kg, body.mass_distribution
+        x, y, z = body.mass_distribution.squares_m2
         self._roots = np.sqrt(body.mass_kg * np.array([1.0, 1.0, 1.0, y + z, x + z, x + y]))
         self.squares: NDArray[np.float64] = np.zeros(6)
         self.signs: NDArray[np.float64] = np.ones(6)
 
     def shapes(self, ports: Floats) -> Floats:
         """Displacement of each port in each motion (n, 6) [kg^-1/2]."""
-        off = np.column_stack([self._spread.off(ports[:, :2]), ports[:, 2]])
-        along = np.column_stack([ports[:, 3:5] @ self._spread.axes, ports[:, 5]])
+        off = np.column_stack([self._mass_distribution.off(ports[:, :2]), ports[:, 2]])
+        along = np.column_stack([ports[:, 3:5] @ self._mass_distribution.axes, ports[:, 5]])
         shapes: Floats = np.concatenate([along, np.cross(off, along)], axis=1) / self._roots
         return shapes
 

@@ -67,8 +67,8 @@ def is_compact(plate: Plate) -> bool:
     return is_box or is_stiff(plate, HOLLOW_HZ)
 
 
-class Spread(NamedTuple):
-    """How the mass of a rigid body is spread.
+class MassDistribution(NamedTuple):
+    """The mass distribution of a rigid body.
 
     middle_m : (2,) centre of mass [m]; axes : (2, 2) principal axes in the plane, as columns; squares_m2 : (3,) mean
     squares of the distances from the middle along these axes and along the normal [m2].
@@ -79,13 +79,13 @@ class Spread(NamedTuple):
     squares_m2: Floats
 
     @classmethod
-    def of_box(cls, size_m: tuple[float, float, float]) -> Spread:
-        """The spread of a box from its corner."""
+    def of_box(cls, size_m: tuple[float, float, float]) -> MassDistribution:
+        """The mass distribution of a box from its corner."""
         return cls(np.array(size_m[:2]) / 2, np.eye(2), np.square(size_m) / 12)
 
     @classmethod
-    def of_outline(cls, outline: Outline, thickness_m: float) -> Spread:
-        """The spread of a plate within an outline."""
+    def of_outline(cls, outline: Outline, thickness_m: float) -> MassDistribution:
+        """The mass distribution of a plate within an outline."""
         middle_m, products_m2 = outline.moments
         squares_m2, axes = np.linalg.eigh(products_m2)
         return cls(middle_m, axes, np.append(squares_m2, thickness_m**2 / 12))
@@ -123,11 +123,11 @@ class RigidMotion:
         return cls(plate.mass_kg, (plate.length_m, plate.width_m, 0.0), outline=plate.outline)
 
     @cached_property
-    def spread(self) -> Spread | None:
-        """How the body's mass is spread; None if it does not rock."""
+    def mass_distribution(self) -> MassDistribution | None:
+        """The distribution of the body's mass; None if it does not rock."""
         if self.size_m is None or self.outline is None:
-            return self.size_m and Spread.of_box(self.size_m)
-        return Spread.of_outline(self.outline, self.size_m[2])
+            return self.size_m and MassDistribution.of_box(self.size_m)
+        return MassDistribution.of_outline(self.outline, self.size_m[2])
 
     def response_basis(self, forces_m: Floats) -> RigidBasis:
         """See `HasResponseBasis`."""
@@ -146,13 +146,15 @@ class RigidMotion:
         [m] in the two rotations.
         """
         up = np.ones((len(points_m), 1))
-        return up if self.spread is None else np.concatenate([up, self.spread.off(points_m)], axis=1)
+        return (
+            up if self.mass_distribution is None else np.concatenate([up, self.mass_distribution.off(points_m)], axis=1)
+        )
 
     def _moved_by(self, forces_m: Floats) -> Floats:
         """Acceleration of each motion per force at points (n_forces, 2) [m]: (n_motions, n_forces)."""
         inertias = np.array([self.mass_kg])
-        if self.spread is not None:
-            x, y, z = self.spread.squares_m2
+        if self.mass_distribution is not None:
+            x, y, z = self.mass_distribution.squares_m2
             inertias = self.mass_kg * np.array([1.0, x + z, y + z])
         moved: Floats = (self.motions(forces_m) / inertias).T
         return moved

@@ -8,7 +8,7 @@ import numpy as np
 
 from scene2hap.common.arrays import Complex, Floats
 from scene2hap.propagation.bodies.infinite_body import InfiniteBody
-from scene2hap.propagation.elastic_body import ElasticBody, Pairs, contracted
+from scene2hap.propagation.elastic_body import DeflectionFunction, ElasticBody, contracted
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +37,7 @@ class SplitBody:
         answer[~is_low] = self.above.receptance(points_m, forces_m, frequencies_hz[~is_low])
         return answer
 
-    def under(self, forces_m: Floats, frequencies_hz: Floats, forces: Complex) -> Pairs:
+    def under(self, forces_m: Floats, frequencies_hz: Floats, forces: Complex) -> DeflectionFunction:
         """See `Contractible`."""
         is_low = frequencies_hz <= self.limit_hz
         low = contracted(self.below, forces_m, frequencies_hz[is_low], forces[:, is_low])

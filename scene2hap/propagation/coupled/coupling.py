@@ -43,7 +43,7 @@ FEWEST_AT_ONCE = 4
 """Least number of frequencies in memory at once: `elimination` solves four in the time of one."""
 
 
-class Along(NamedTuple):
+class ForceDirection(NamedTuple):
     """Direction (x, y, z) of a joint's force on a body, in the body's own coordinates, and the height of the joint over
     the mid-plane [m]."""
 
@@ -53,8 +53,8 @@ class Along(NamedTuple):
     height_m: float
 
 
-NORMAL = Along(0.0, 0.0, 1.0, 0.0)
-REVERSED = Along(0.0, 0.0, -1.0, 0.0)
+NORMAL = ForceDirection(0.0, 0.0, 1.0, 0.0)
+REVERSED = ForceDirection(0.0, 0.0, -1.0, 0.0)
 """As `NORMAL`, for a body whose normal is opposed to the joint's direction."""
 
 
@@ -74,8 +74,8 @@ class Joint:
     stiffness_n_m: float = math.inf
     loss_factor: float = 0.0
     damping_n_s_m: float = 0.0
-    along_a: Along = NORMAL
-    along_b: Along = NORMAL
+    along_a: ForceDirection = NORMAL
+    along_b: ForceDirection = NORMAL
 
     def __post_init__(self) -> None:
         given = (self.stiffness_n_m, self.loss_factor, self.damping_n_s_m)
@@ -99,8 +99,8 @@ def compliances_m_n(joints: Sequence[Joint], frequencies_hz: Floats) -> Complex:
 
 
 @dataclass(frozen=True, eq=False)
-class Ends:
-    """The joints of one body.
+class JointEnds:
+    """The ends of all joints on one body.
 
     points_m : (n, 2) [m], on the body, or ports (n, 6) of a `SpatialBody` if any joint is not along its normal;
     rows : (n,) indices among all joints; signs : (n,) +1 where the body is the joint's a, -1 where it is b, and the
@@ -126,7 +126,7 @@ class JointForces:
     source_ids: tuple[str, ...]
     frequencies_hz: Floats
     forces: Complex
-    ends: Mapping[str, Ends]
+    ends: Mapping[str, JointEnds]
     system: JointSystem | None = None
 
     def deflection(self, body_id: str, points_m: Floats) -> Complex:
@@ -170,7 +170,7 @@ class JointSystem:
     (n_joints, n_f) [m/N].
     """
 
-    ends: Mapping[str, Ends]
+    ends: Mapping[str, JointEnds]
     receptances: Mapping[str, Complex]
     compliances: Complex
 
@@ -223,7 +223,7 @@ def couple(
 
 def systems(
     bodies: Mapping[str, ElasticBody],
-    ends: Mapping[str, Ends],
+    ends: Mapping[str, JointEnds],
     joints: Sequence[Joint],
     frequencies_hz: Floats,
     at_once: int | None = None,
@@ -258,7 +258,7 @@ def require_memory(n_bytes: int, what: str, instead: str) -> None:
         )
 
 
-def ends_of(joints: Sequence[Joint]) -> dict[str, Ends]:
+def ends_of(joints: Sequence[Joint]) -> dict[str, JointEnds]:
     """Return the joints of every body that has any."""
     found: dict[str, list[tuple[tuple[float, ...], int, float]]] = {}
     inclined = inclined_in(joints)
@@ -270,7 +270,7 @@ def ends_of(joints: Sequence[Joint]) -> dict[str, Ends]:
             port = (*point_m, along.height_m, along.x, along.y, along.z) if key in inclined else point_m
             is_reversed = along is REVERSED and key not in inclined
             found.setdefault(key, []).append((port, row, -sign if is_reversed else sign))
-    return {body_id: Ends(*map(np.array, zip(*several, strict=True))) for body_id, several in found.items()}
+    return {body_id: JointEnds(*map(np.array, zip(*several, strict=True))) for body_id, several in found.items()}
 
 
 def inclined_in(joints: Sequence[Joint]) -> set[str]:
@@ -279,7 +279,7 @@ def inclined_in(joints: Sequence[Joint]) -> set[str]:
     return {key for key, along in ends if along is not NORMAL and along is not REVERSED}
 
 
-def _free_deflections(ends: Mapping[str, Ends], n_joints: int, source_ids: Sequence[str]) -> Floats:
+def _free_deflections(ends: Mapping[str, JointEnds], n_joints: int, source_ids: Sequence[str]) -> Floats:
     """Free deflection across each joint for each source (n_joints, n_sources)."""
     free = np.zeros((n_joints, len(source_ids)))
     for column, source_id in enumerate(source_ids):

@@ -39,7 +39,7 @@ DENSITY = 0.6
 
 @dataclass(frozen=True, eq=False)
 class HeldBody:
-    """A body and the positions of its joints, (n_joints, 2) [m] or (n_joints, 6), see `coupling.Ends`."""
+    """A body and the positions of its joints, (n_joints, 2) [m] or (n_joints, 6), see `coupling.JointEnds`."""
 
     body: ElasticBody
     joints_m: Floats

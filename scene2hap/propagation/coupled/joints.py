@@ -13,7 +13,7 @@ import numpy as np
 from scene2hap.contact.junction import Pair, pair_of
 from scene2hap.materials import Material
 from scene2hap.propagation.coupled.contact_stiffness import FADING_LOSS, ContactLaw
-from scene2hap.propagation.coupled.coupling import NORMAL, REVERSED, Along, Joint
+from scene2hap.propagation.coupled.coupling import NORMAL, REVERSED, ForceDirection, Joint
 from scene2hap.propagation.coupled.layers import Spring, pressed_through
 from scene2hap.propagation.coupled.standing import standings
 from scene2hap.propagation.plate import Plate, RigidBody
@@ -192,7 +192,7 @@ def _is_level(normal: Direction, contacts: Sequence[Contact]) -> bool:
     return all(one.normal is None or abs(dot(normal, one.normal)) >= LEVEL for one in contacts)
 
 
-def _directions(network: ContactNetwork, touching: Mapping[str, Sequence[Contact]]) -> dict[str, list[Along]]:
+def _directions(network: ContactNetwork, touching: Mapping[str, Sequence[Contact]]) -> dict[str, list[ForceDirection]]:
     """Direction in which each contact acts on each object that it touches: `NORMAL` or `REVERSED` for all contacts of
     an object, unless one differs (`LEVEL`)."""
     axes = {object_id: _axes(network, object_id) for object_id in touching}
@@ -212,7 +212,7 @@ def _directions_on(
     contacts: Sequence[Contact],
     axes: Mapping[str, Axes | None],
     level: Mapping[str, Direction],
-) -> list[Along]:
+) -> list[ForceDirection]:
     """Directions of the contacts of one object.
 
     Parameters: axes : see `_axes`; level : the normal of each body all of whose contacts are along it.
@@ -230,7 +230,7 @@ def _directions_on(
             found.append(NORMAL if sign > 0 else REVERSED)
             continue
         (height_m,) = network.poses[object_id].to_own([contact.point_m])[:, 2].tolist()
-        found.append(Along(sign * dot(x, along), sign * dot(y, along), sign * dot(z, along), height_m))
+        found.append(ForceDirection(sign * dot(x, along), sign * dot(y, along), sign * dot(z, along), height_m))
     return found
 
 

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from scene2hap.common.arrays import Complex, Floats
 from scene2hap.propagation.bands.band_shapes import band_gains
 from scene2hap.propagation.bands.sampling import Gains, Sampling
-from scene2hap.propagation.coupled.coupling import Ends, Joint
+from scene2hap.propagation.coupled.coupling import Joint, JointEnds
 from scene2hap.propagation.coupled.hand_load import HandLoad, LoadedGains
 from scene2hap.propagation.coupled.object_response import Magnitudes
 from scene2hap.propagation.elastic_body import ElasticBody, HasResponseBasis, SpatialBody, contracted, pieces
@@ -45,7 +45,7 @@ class SolvedObject:
     """
 
     body: ElasticBody
-    ends: Ends
+    ends: JointEnds
     forces: Complex
     columns: NDArray[np.intp]
     joints: Sequence[Joint]

@@ -29,10 +29,11 @@ _ONE_HEIGHT_M = 0.01
 side by side touch over their height."""
 
 
-class Standing(NamedTuple):
-    """upper : the object that stands on the other of its pair, None if unknown; preload_n : on each contact [N].
+class PairLoad(NamedTuple):
+    """Which object of a pair stands on the other, and the load on each of their contacts.
 
-    hangs : whether the lighter object stands on nothing, so that the other one, beside or above it, holds its weight.
+    upper : id of the object on top, None if unknown; preload_n : on each contact [N]; hangs : whether the lighter
+    object stands on nothing, so that the other one, beside or above it, holds its weight.
     """
 
     upper: str | None
@@ -42,7 +43,7 @@ class Standing(NamedTuple):
 
 def standings(
     network: ContactNetwork, pairs: Mapping[Pair, Sequence[Contact]], law: ContactLaw, source_kg: Mapping[str, float]
-) -> dict[Pair, Standing]:
+) -> dict[Pair, PairLoad]:
     """Return who stands on whom, for pairs with contacts of a weight above 0.
 
     Parameters: source_kg : mass with which each source moves [kg].
@@ -149,12 +150,12 @@ def _hangs_beside(
 
 def _from_above(
     below: Mapping[str, Mapping[Pair, _Support]], masses_kg: Mapping[str, float], stated: Set[str], law: ContactLaw
-) -> dict[Pair, Standing]:
+) -> dict[Pair, PairLoad]:
     """Loads of the pairs whose upper object is known, from the top down; none of a ring of objects, or below one."""
     n_above = Counter(one.lower for supports in below.values() for one in supports.values())
     passed_kg: dict[str, list[float]] = defaultdict(list)
     is_known = set(stated)
-    found: dict[Pair, Standing] = {}
+    found: dict[Pair, PairLoad] = {}
     ready = [upper for upper in below if not n_above[upper]]
     while ready:
         upper = ready.pop()
@@ -166,7 +167,7 @@ def _from_above(
         for pair, one in supports.items():
             lower = one.lower
             known = [load_kg] if upper in is_known or lower in stated else []
-            found[pair] = Standing(upper, law.preload(known, n_contacts))
+            found[pair] = PairLoad(upper, law.preload(known, n_contacts))
             passed_kg[lower].append(load_kg * one.weight / n_contacts)
             if upper in is_known:
                 is_known.add(lower)
@@ -178,17 +179,17 @@ def _from_above(
 
 def _lighter(
     pair: Pair, n_contacts: int, masses_kg: Mapping[str, float], stated: Set[str], law: ContactLaw
-) -> Standing:
+) -> PairLoad:
     """The lighter object of a pair rests on the other; unknown if no mass is stated, or both are equal.
 
     If one mass is stated, the other object counts as heavy as it moves: a phone on a table of 25 kg does not press as
     the table would.
     """
     if stated.isdisjoint(pair):
-        return Standing(None, law.preload([], n_contacts))
+        return PairLoad(None, law.preload([], n_contacts))
     a, b = (masses_kg[object_id] for object_id in pair)
     upper = None if a == b else pair[a > b]
-    return Standing(upper, law.preload([a, b], n_contacts))
+    return PairLoad(upper, law.preload([a, b], n_contacts))
 
 
 def _moving_kg(network: ContactNetwork, object_id: str, source_kg: Mapping[str, float]) -> float:

@@ -184,7 +184,7 @@ class PlateTerms:
     @property
     def n_cosines(self) -> tuple[int, int]:
         """Number of Chebyshev polynomials along each axis."""
-        x, y = (len(axis.family.chebyshev) for axis in self._axes)
+        x, y = (len(axis.unit.chebyshev) for axis in self._axes)
         return x, y
 
     def spectrum(self, q: Complex) -> Complex:
@@ -223,7 +223,7 @@ class PlateTerms:
     def _in_cosines(self, columns: Floats) -> Floats:
         """Convert columns over products of the axes' functions to those of `cosines`: a hand touches one point at a
         time, for which few calls save more time than few products."""
-        x, y = (axis.family.chebyshev * math.sqrt(2 / axis.length_m) for axis in self._axes)
+        x, y = (axis.unit.chebyshev * math.sqrt(2 / axis.length_m) for axis in self._axes)
         along = x @ columns.reshape(x.shape[1], -1)
         both = y @ along.reshape(len(x), y.shape[1], -1)
         return both.reshape(len(x) * len(y), -1 if both.size else columns.shape[1])

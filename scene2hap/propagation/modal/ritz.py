@@ -28,7 +28,7 @@ _FIXED = {"F": 0, "S": 1, "C": 2}
 
 
 @dataclass(frozen=True, eq=False)
-class Family:
+class UnitBasis:
     """Functions of xi, orthonormal on -1..1, for axes of any length; shared by all plates with the same edges.
 
     coefficients : (n_legendre, n_functions) of normalised Legendre polynomials.
@@ -60,18 +60,18 @@ class Family:
 class AxisBasis:
     """Functions of one coordinate, orthonormal on 0..length [m]."""
 
-    family: Family
+    unit: UnitBasis
     length_m: float
 
     @property
     def n_functions(self) -> int:
         """Number of functions."""
-        return len(self.family.coefficients.T)
+        return len(self.unit.coefficients.T)
 
     def values(self, x_m: NDArray[np.float64]) -> NDArray[np.float64]:
         """The functions at (n_points,) [m] -> (n_points, n_functions) [m^-1/2]."""
         # As cosines, since a hand touches one point at a time and the Legendre recurrence is a loop.
-        chebyshev = self.family.chebyshev
+        chebyshev = self.unit.chebyshev
         angle = np.arccos(np.clip(2 * x_m / self.length_m - 1, -1.0, 1.0))
         values: NDArray[np.float64] = np.cos(angle[:, None] * np.arange(len(chebyshev))) @ chebyshev
         values *= np.sqrt(2 / self.length_m)
@@ -80,22 +80,22 @@ class AxisBasis:
     @property
     def curvature(self) -> NDArray[np.float64]:
         """Integrals of X_i'' X_j'' (n, n) [m^-4]."""
-        return self.family.integrals[0] * (2 / self.length_m) ** 4
+        return self.unit.integrals[0] * (2 / self.length_m) ** 4
 
     @property
     def slope(self) -> NDArray[np.float64]:
         """Integrals of X_i' X_j' (n, n) [m^-2]."""
-        return self.family.integrals[1] * (2 / self.length_m) ** 2
+        return self.unit.integrals[1] * (2 / self.length_m) ** 2
 
     @property
     def crossed(self) -> NDArray[np.float64]:
         """Integrals of X_i X_j'' (n, n) [m^-2]."""
-        return self.family.integrals[2] * (2 / self.length_m) ** 2
+        return self.unit.integrals[2] * (2 / self.length_m) ** 2
 
     @property
     def climb(self) -> NDArray[np.float64]:
         """Integrals of X_i X_j' (n, n) [m^-1]."""
-        return self.family.integrals[3] * (2 / self.length_m)
+        return self.unit.integrals[3] * (2 / self.length_m)
 
 
 def axis_bases(edges: str, length_m: float, n_terms: int) -> tuple[AxisBasis, ...]:
@@ -103,12 +103,12 @@ def axis_bases(edges: str, length_m: float, n_terms: int) -> tuple[AxisBasis, ..
 
     Parameters: edges : two letters F, S, C for the edges at 0 and at length; n_terms : functions in all.
     """
-    return tuple(AxisBasis(family, length_m) for family in _families(edges, n_terms)[:-1])
+    return tuple(AxisBasis(unit, length_m) for unit in _unit_bases(edges, n_terms)[:-1])
 
 
 def axis_basis(edges: str, length_m: float, n_terms: int) -> AxisBasis:
-    """The functions of `axis_bases`, one family after the other."""
-    return AxisBasis(_families(edges, n_terms)[-1], length_m)
+    """The functions of `axis_bases`, one unit basis after the other."""
+    return AxisBasis(_unit_bases(edges, n_terms)[-1], length_m)
 
 
 def stiffness(x: AxisBasis, y: AxisBasis, poisson_ratio: float) -> NDArray[np.float64]:
@@ -134,12 +134,12 @@ def products(x: AxisBasis, y: AxisBasis, points_m: NDArray[np.float64]) -> NDArr
 
 
 @lru_cache(maxsize=512)
-def _families(edges: str, n_terms: int) -> tuple[Family, ...]:
-    """The families that do not mix, and last a family with the functions of all of them in that order."""
+def _unit_bases(edges: str, n_terms: int) -> tuple[UnitBasis, ...]:
+    """The unit bases that do not mix, and last one with the functions of all of them in that order."""
     parities = (slice(0, None, 2), slice(1, None, 2)) if edges[0] == edges[1] else (slice(None),)
     coefficients = _coefficients(edges, n_terms)
     apart = [coefficients[:, parity] for parity in parities]
-    return (*(Family(one) for one in apart), Family(np.hstack(apart)))
+    return (*(UnitBasis(one) for one in apart), UnitBasis(np.hstack(apart)))
 
 
 def _coefficients(edges: str, n_terms: int) -> NDArray[np.float64]:

@@ -33,7 +33,7 @@ _AT_ONCE = 256
 """Points of one array over points and contacts: a map of a floor with a thousand objects would need gigabytes."""
 
 
-class Sides(NamedTuple):
+class ContactSides(NamedTuple):
     """The two sides of each contact, numbered 2 i on its object a and 2 i + 1 on b: side ^ 1 is the one across.
 
     owner : the object of each side; by_object : the sides of each object; points_m (n_contacts, 3) [m]; crossing
@@ -46,7 +46,7 @@ class Sides(NamedTuple):
     crossing: NDArray[np.float64]
 
     @classmethod
-    def of(cls, contacts: Sequence[Contact], crossing_cost: Sequence[float]) -> Sides:
+    def of(cls, contacts: Sequence[Contact], crossing_cost: Sequence[float]) -> ContactSides:
         """Number the sides of contacts."""
         owner = [object_id for contact in contacts for object_id in (contact.a, contact.b)]
         points_m = np.array([contact.point_m for contact in contacts], dtype=np.float64).reshape(-1, 3)
@@ -79,7 +79,7 @@ def cheapest_arrivals(
     be a source); crossing_cost : cost of each contact, >= 0; max_hops : contacts that a path may cross, None for any
     number.
     """
-    sides = Sides.of(contacts, crossing_cost)
+    sides = ContactSides.of(contacts, crossing_cost)
     if max_hops is None:
         costs = least_costs(cost_per_m, sides, source_ids).costs
     else:
@@ -87,7 +87,9 @@ def cheapest_arrivals(
     return arrivals_of(cost_per_m, sides, costs)
 
 
-def arrivals_of(cost_per_m: Mapping[str, float], sides: Sides, costs: NDArray[np.float64]) -> dict[str, Arrivals]:
+def arrivals_of(
+    cost_per_m: Mapping[str, float], sides: ContactSides, costs: NDArray[np.float64]
+) -> dict[str, Arrivals]:
     """Return the arrivals at every object with a cost per metre, from the costs (n_sources, n_sides) over all sides."""
     # Contacts that every source reaches from within the object are never on a cheapest path into it. On a floor with a
     # thousand objects these are most contacts.
@@ -125,7 +127,7 @@ def arrivals_at(
     return costs
 
 
-class Found(NamedTuple):
+class CheapestPaths(NamedTuple):
     """The cheapest paths from each source over each side; of paths of equal cost, those with the fewest contacts.
 
     costs (n_sources, n_sides) : infinite without a path; hops (n_sources, n_sides) : contacts on the path, 0 without
@@ -137,10 +139,10 @@ class Found(NamedTuple):
     before: NDArray[np.intp]
 
 
-def least_costs(cost_per_m: Mapping[str, float], sides: Sides, source_ids: Sequence[str]) -> Found:
+def least_costs(cost_per_m: Mapping[str, float], sides: ContactSides, source_ids: Sequence[str]) -> CheapestPaths:
     """Return the cheapest path from each source over each side."""
     shape, network = (len(source_ids), len(sides.owner)), Network.of(cost_per_m, sides)
-    found = Found(np.full(shape, np.inf), np.zeros(shape, dtype=np.intp), np.zeros(shape, dtype=np.intp))
+    found = CheapestPaths(np.full(shape, np.inf), np.zeros(shape, dtype=np.intp), np.zeros(shape, dtype=np.intp))
     for row, source_id in enumerate(source_ids):
         if source_id in sides.by_object:
             search(network, sides.by_object[source_id], *(values[row] for values in found))
@@ -153,7 +155,7 @@ class Network(NamedTuple):
     owner (n_sides,) : number of the object of each side; own (n_sides,) : the sides of all objects, one object after
     the other; first (n_objects + 1,) : where each object's begin in `own`; cost_per_m (n_objects,) : infinite where no
     path leads through; leads_on (n_sides,) : whether a path may be cheaper that enters over this side and goes on;
-    points_m, crossing : see `Sides`.
+    points_m, crossing : see `ContactSides`.
     """
 
     owner: NDArray[np.intp]
@@ -165,7 +167,7 @@ class Network(NamedTuple):
     crossing: NDArray[np.float64]
 
     @classmethod
-    def of(cls, cost_per_m: Mapping[str, float], sides: Sides) -> Network:
+    def of(cls, cost_per_m: Mapping[str, float], sides: ContactSides) -> Network:
         """Number the objects of sides."""
         number = {object_id: k for k, object_id in enumerate(sides.by_object)}
         owner = np.array([number[object_id] for object_id in sides.owner], dtype=np.intp)
@@ -187,7 +189,7 @@ def search(
     hops: NDArray[np.intp],
     before: NDArray[np.intp],
 ) -> None:
-    """Enter the cheapest paths from one source into a row of `Found`, which is infinite and 0 before.
+    """Enter the cheapest paths from one source into a row of `CheapestPaths`, which is infinite and 0 before.
 
     Parameters: out : the sides of the source.
     """
@@ -243,7 +245,7 @@ def nearest_entries(
 
 
 def costs_by_hops(
-    cost_per_m: Mapping[str, float], sides: Sides, source_ids: Sequence[str], max_hops: int
+    cost_per_m: Mapping[str, float], sides: ContactSides, source_ids: Sequence[str], max_hops: int
 ) -> Iterator[NDArray[np.float64]]:
     """Yield the cost (n_sources, n_sides) of arriving over each side with at most 1, 2, ... contacts, up to the last
     round that may lower a cost."""

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scene2hap.propagation.paths.prepared_paths import (
     WITHIN,
     Arrivals,
-    Sides,
+    ContactSides,
     arrivals_of,
     costs_by_hops,
     distances_m,
@@ -25,10 +25,10 @@ _TOUCH = "\0touch"
 """Id of a point that is searched from; no object has it."""
 
 
-class Way(NamedTuple):
+class TracedPath(NamedTuple):
     """Objects from a source to a touch, and of each object after the source the entry point [m] and the cost up to it.
 
-    A way may return to an object, as over a bar of steel on a rug.
+    A path may return to an object, as over a bar of steel on a rug.
     """
 
     objects: tuple[str, ...]
@@ -37,7 +37,7 @@ class Way(NamedTuple):
 
 
 class Leg(NamedTuple):
-    """One object on a way after the source: where the way enters and leaves it [m], and the cost up to leaving it."""
+    """One object on a path after the source: where the path enters and leaves it [m], and the cost up to leaving it."""
 
     object_id: str
     enter_m: Point
@@ -60,7 +60,7 @@ class TracedPaths:
         max_hops: int | None,
     ) -> None:
         self._cost_per_m, self._rows = cost_per_m, {source_id: row for row, source_id in enumerate(source_ids)}
-        self._sides = Sides.of(contacts, crossing_cost)
+        self._sides = ContactSides.of(contacts, crossing_cost)
         if max_hops is None:
             self._costs, hops, self._side_before = least_costs(cost_per_m, self._sides, source_ids)
             # The number of contacts before each side on the cheapest path to it.
@@ -95,15 +95,15 @@ class TracedPaths:
         )
         return np.where(found >= 0, own[found], -1)
 
-    def way_to(self, source_id: str, object_id: str) -> Way | None:
-        """Return the cheapest way from a source to any point of an object, None without one."""
+    def path_to(self, source_id: str, object_id: str) -> TracedPath | None:
+        """Return the cheapest path from a source to any point of an object, None without one."""
         if object_id not in self._sides.by_object:
             return None
         side = int(self._cheapest(object_id, np.zeros((1, 3)), 0.0)[self._rows[source_id], 0])
-        return self.way(source_id, side) if side >= 0 else None
+        return self.path(source_id, side) if side >= 0 else None
 
-    def way(self, source_id: str, side: int) -> Way:
-        """Return the cheapest way from a source to the object that it enters over a side."""
+    def path(self, source_id: str, side: int) -> TracedPath:
+        """Return the cheapest path from a source to the object that it enters over a side."""
         sides, n_before = np.array([*self._back(source_id, side)][::-1]).T
         owner, _, points_m, _ = self._sides
         entries_m = tuple((x, y, z) for x, y, z in points_m[sides // 2].tolist())
@@ -112,7 +112,7 @@ class TracedPaths:
             costs = [self._by_hops[n][row, one] for one, n in zip(sides, n_before, strict=True)]
         else:
             costs = self._costs[row, sides].tolist()
-        return Way((source_id, *(owner[one] for one in sides)), entries_m, tuple(map(float, costs)))
+        return TracedPath((source_id, *(owner[one] for one in sides)), entries_m, tuple(map(float, costs)))
 
     def objects(self, source_id: str, sides: Iterable[int]) -> list[tuple[str, ...]]:
         """Return the objects from a source to each of some sides, without those between an object and a return to it.
@@ -180,10 +180,10 @@ class PathsToPoint:
         self._object_id = object_id
 
     def legs(self, source_id: str) -> tuple[Leg, ...] | None:
-        """Return the cheapest way from a source to the point, object by object after the source; None without one."""
+        """Return the cheapest path from a source to the point, object by object after the source; None without one."""
         if source_id == self._object_id:
             return ()
-        found = self._traced.way_to(_TOUCH, source_id)
+        found = self._traced.path_to(_TOUCH, source_id)
         if found is None:
             return None
         _, *objects, _ = found.objects

@@ -5,15 +5,15 @@ import math
 import numpy as np
 import pytest
 
-from scene2hap.audio.distinctness import Feel, difference, distinctness, feel_of, frequency_jnds
+from scene2hap.audio.distinctness import Percept, difference, distinctness, frequency_jnds, percept_of
 from scene2hap.errors import AudioError
 
 RATE = 8000
 T = np.arange(2 * RATE) / RATE
 
 
-def felt(frequency_hz: float, level_db: float = 20.0, envelope_hz: float | None = None) -> Feel:
-    return Feel(frequency_hz, envelope_hz, level_db)
+def felt(frequency_hz: float, level_db: float = 20.0, envelope_hz: float | None = None) -> Percept:
+    return Percept(frequency_hz, envelope_hz, level_db)
 
 
 def test_a_jnd_of_frequency_is_a_weber_fraction() -> None:
@@ -35,7 +35,7 @@ def test_a_jnd_of_frequency_is_a_weber_fraction() -> None:
         (felt(100, 20.0, 2.0), felt(100, 20.0, None), False),
     ],
 )
-def test_sources_are_distinct_by_frequency_level_or_rhythm(one: Feel, other: Feel, is_distinct: bool) -> None:
+def test_sources_are_distinct_by_frequency_level_or_rhythm(one: Percept, other: Percept, is_distinct: bool) -> None:
     assert difference("a", one, "b", other).is_distinct is is_distinct
     assert difference("b", other, "a", one).is_distinct is is_distinct
 
@@ -52,19 +52,19 @@ def test_distinctness_lists_all_pairs_with_the_least_distinct_first() -> None:
 
 def test_feel_is_read_from_the_loop() -> None:
     x = 0.2 * np.sin(2 * np.pi * 180 * T) * (1 + 0.6 * np.sin(2 * np.pi * 8 * T))
-    feel = feel_of(x, RATE)
-    assert (feel.frequency_hz, feel.envelope_hz) == (180.0, 8.0)
+    percept = percept_of(x, RATE)
+    assert (percept.frequency_hz, percept.envelope_hz) == (180.0, 8.0)
     # The side bands have 2 (m / 2)^2 of the carrier's energy, at nearly the carrier's threshold.
     carrier_db = 20 * math.log10(0.2) + 42.6
-    assert feel.level_db == pytest.approx(carrier_db + 10 * math.log10(1 + 0.18), abs=0.3)
+    assert percept.level_db == pytest.approx(carrier_db + 10 * math.log10(1 + 0.18), abs=0.3)
 
 
 def test_a_steady_tone_has_no_envelope_rate_and_silence_no_feel() -> None:
-    assert feel_of(0.2 * np.sin(2 * np.pi * 180 * T), RATE).envelope_hz is None
+    assert percept_of(0.2 * np.sin(2 * np.pi * 180 * T), RATE).envelope_hz is None
     with pytest.raises(AudioError, match="silent"):
-        feel_of(np.zeros(RATE), RATE)
+        percept_of(np.zeros(RATE), RATE)
 
 
 def test_dominant_frequency_is_the_one_felt_most() -> None:
     x = 0.3 * np.sin(2 * np.pi * 40 * T) + 0.05 * np.sin(2 * np.pi * 250 * T)
-    assert feel_of(x, RATE).frequency_hz == 250.0
+    assert percept_of(x, RATE).frequency_hz == 250.0

@@ -10,7 +10,7 @@ import pytest
 
 from scene2hap import Box, HapticBundle, SceneObject, SceneSnapshot, bake, rebake
 from scene2hap.cli import main
-from scene2hap.clips.haptic_clip import About, Curve, HapticClip, Transient
+from scene2hap.clips.haptic_clip import ClipMetadata, Curve, HapticClip, Transient
 from scene2hap.clips.haptic_format import compose_haptic
 from scene2hap.clips.reading import read_haptic_clip
 from scene2hap.errors import AudioError, ClipError
@@ -25,7 +25,7 @@ def baked() -> HapticBundle:
 def clip(tmp_path: Path) -> Path:
     """A clip file: a hum of a second that swells, with a knock in its middle."""
     amplitude = Curve(np.array([0.0, 0.5, 1.003]), np.array([0.2, 0.8, 0.3]))
-    made = HapticClip(amplitude, None, (Transient(0.5, 1.0, 0.4),), about=About(author="Ada"))
+    made = HapticClip(amplitude, None, (Transient(0.5, 1.0, 0.4),), about=ClipMetadata(author="Ada"))
     path = tmp_path / "kettle.haptic"
     path.write_text(json.dumps(compose_haptic(made)))
     return path

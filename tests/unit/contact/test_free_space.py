@@ -12,7 +12,7 @@ from scene2hap.contact import free_space, pair as narrow_phase
 from scene2hap.contact.body import Body
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.contact.ledge import FreeRegion, FreeRegions, Upright
+from scene2hap.contact.ledge import FreeRegion, FreeRegions, VerticalAxis
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.rule import fall_reach_m, hang_reach_m
 from scene2hap.contact.stance import Stance
@@ -149,7 +149,7 @@ def test_a_free_region_of_a_floor_serves_other_guests(monkeypatch: pytest.Monkey
 def test_many_guests_keep_few_regions() -> None:
     regions = FreeRegions()
     for n in range(5000):
-        new = FreeRegion(Upright(1, 1, 0, 2), ((n, 0, 0), (n + 1, 1, 1)), None, (0, 0, 0, 0))
+        new = FreeRegion(VerticalAxis(1, 1, 0, 2), ((n, 0, 0), (n + 1, 1, 1)), None, (0, 0, 0, 0))
         assert regions.find(f"copy_{n}", lambda known: False, lambda new=new: new) is new
     taken = (4990.2, 0.2, 0.2), (4990.4, 0.4, 0.4)
     found = regions.find("other", lambda known: known.holds(taken), lambda: None)

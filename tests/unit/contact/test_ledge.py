@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 from contact_scenes import house, level, quads
 from scene2hap.contact.body import Body
 from scene2hap.contact.geometry.boxes import boxes_of
-from scene2hap.contact.ledge import Flat, Ledges, Upright
+from scene2hap.contact.ledge import Flat, Ledges, VerticalAxis
 from scene2hap.contact.shape import shape_of
 
-UP = Upright(1, 1, 0, 2)
+UP = VerticalAxis(1, 1, 0, 2)
 WIDE = (-5.0, -5.0, 5.0, 5.0)
 
 
-def ledges(triangles: NDArray[np.float64], upright: Upright = UP) -> Ledges:
+def ledges(triangles: NDArray[np.float64], upright: VerticalAxis = UP) -> Ledges:
     """The ledges of triangles (n, 3, 3), whose rows are corners."""
     axes_first = triangles.transpose(2, 1, 0)
     return Ledges(axes_first, boxes_of(axes_first), upright, 2e-4)
@@ -107,9 +107,9 @@ def test_a_stretch_of_a_round_table_is_in_its_circle(away: float, bearing: float
 def test_heights_are_along_the_vertical_axis() -> None:
     shape = shape_of(house().geometry.mesh)
     assert shape.ledges(UP).heights == pytest.approx([0.0, 0.12, 0.88, 0.9, 2.4])
-    assert shape.ledges(Upright(1, -1, 0, 2)).heights == pytest.approx([-2.4, -0.9, -0.88, -0.12, 0.0])
+    assert shape.ledges(VerticalAxis(1, -1, 0, 2)).heights == pytest.approx([-2.4, -0.9, -0.88, -0.12, 0.0])
     # With x up, the walls are level.
-    assert shape.ledges(Upright(0, 1, 1, 2)).heights == pytest.approx([-1.5, -0.7, 0.5, 1.5])
+    assert shape.ledges(VerticalAxis(0, 1, 1, 2)).heights == pytest.approx([-1.5, -0.7, 0.5, 1.5])
     assert Body.of(house((0.5, 0.5, 0.5, 0.5)), 1).stance.lean is not None
 
 

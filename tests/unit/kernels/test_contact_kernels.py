@@ -14,7 +14,7 @@ from scene2hap.contact.geometry.vectors import upright_frame
 from scene2hap.contact.mesh_distance import ROUNDING_M, MeshPair
 from scene2hap.contact.shape import shape_of
 from scene2hap.contact.stance import Stance
-from scene2hap.contact.track import Standing
+from scene2hap.contact.track import SupportFace
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import Box, TriMesh
 
@@ -37,7 +37,7 @@ def test_kernels_track_moves_bit_for_bit(up_axis: int, stands: bool) -> None:
         first = turned(rng, up_axis)
         stance = Stance(shape, first, up_axis)
         edges = [(1.0, 0.0, -0.8), (-0.6, 0.8, -0.9), (0.0, -1.0, -0.7)][: int(rng.integers(0, 4))]
-        standing = Standing(edges, stance.low[up_axis] - 0.01, -0.03, 0.06, -0.5) if stands else None
+        standing = SupportFace(edges, stance.low[up_axis] - 0.01, -0.03, 0.06, -0.5) if stands else None
         walls = [(math.cos(a), math.sin(a), 0.7, bool(a > 3)) for a in rng.uniform(0, 6, int(rng.integers(4)))]
         tracks = [kind(stance, standing) for kind in kinds]
         for k in range(8):

@@ -13,7 +13,7 @@ from scene2hap.contact.junction import Junction
 from scene2hap.propagation.coupled.elimination import Element, dense
 from scene2hap.propagation.coupled.elimination_order import pattern_of
 from scene2hap.propagation.modal.near_field import table
-from scene2hap.propagation.paths.prepared_paths import Network, Sides
+from scene2hap.propagation.paths.prepared_paths import ContactSides, Network
 from scene2hap.scene.objects import Contact
 
 
@@ -30,7 +30,7 @@ def test_kernels_find_the_same_costs_from_a_source(seed: int, on_grid: bool) -> 
     points = rng.integers(0, 3, (30, 3)) if on_grid else rng.normal(size=(30, 3))  # on a grid many paths are equal
     pairs = [rng.choice(ids, 2, replace=False).tolist() for _ in points]
     contacts = [Contact(a, b, tuple(point)) for (a, b), point in zip(pairs, points.tolist(), strict=True)]
-    sides = Sides.of(contacts, rng.choice([0.0, 0.3, math.inf], len(contacts)))
+    sides = ContactSides.of(contacts, rng.choice([0.0, 0.3, math.inf], len(contacts)))
     network, n_sides = Network.of(cost_per_m, sides), 2 * len(contacts)
     found = []
     for kernel in both("propagation.paths.prepared_paths.search"):

@@ -12,7 +12,7 @@ from kernels import both, seeds, steady
 from scene2hap.audio.clip import AudioClip
 from scene2hap.haptics import Bands
 from scene2hap.render.loop_bank import CELL, LoopBank
-from scene2hap.render.mixer import Change
+from scene2hap.render.mixer import GainChange
 from scene2hap.render.tactile_mix import Gains
 from scene2hap.render.upsampler import Upsampler
 
@@ -109,7 +109,7 @@ def test_kernels_mix_alike_under_changing_gains(rate_hz: int, is_skipping: bool)
         upsampler = Upsampler(8000, rate_hz, 2)
         # Few slots, so that some changes of gain have to wait.
         mixes.append(mix_kind(bank, 2, 12, upsampler.cell, is_skipping=is_skipping))
-        incoming.append(deque[Change]())
+        incoming.append(deque[GainChange]())
         playheads.append(kind(mixes[-1], upsampler, incoming[-1], (8000, rate_hz)))
     for _ in range(300):
         for _ in range(int(rng.choice([0, 1, 3]))):
@@ -121,7 +121,7 @@ def test_kernels_mix_alike_under_changing_gains(rate_hz: int, is_skipping: bool)
             for queue in incoming:
                 if queue and queue[-1].at_frame > 10**20:
                     queue.pop()
-                queue.append(Change(at_frame, gains))
+                queue.append(GainChange(at_frame, gains))
         told = np.full((int(rng.integers(0, 300)), 2), np.nan, dtype=np.float32)
         compiled = np.full_like(told, np.nan)
         playheads[0].render_into(told)

@@ -10,7 +10,7 @@ from scene2hap.audio.actuators import ACTUATORS
 from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
-from scene2hap.audio.tactile.following import MOST_LIFTED_DB, Following
+from scene2hap.audio.tactile.following import MOST_LIFTED_DB, LevelFollower
 from scene2hap.audio.tactile.stages import Stage
 from scene2hap.audio.tactile.step_energies import StepEnergies
 from scene2hap.haptics import ActuatorProfile
@@ -69,7 +69,7 @@ class _Bed(Stage):
 
 
 def followed(gain: np.ndarray, cuts: list[int]) -> np.ndarray:
-    stage = Following(_Bed(gain), RATE)
+    stage = LevelFollower(_Bed(gain), RATE)
     x = 0.5 * np.sin(2 * np.pi * 200 * T)
     return np.concatenate([*(stage.run(part) for part in np.split(x, cuts)), stage.rest()])
 
@@ -86,7 +86,7 @@ def test_follower_returns_every_sample_for_any_block_sizes() -> None:
     for cuts in ([1, 2, 30], [79, 80, 81, 4000], list(range(0, len(T), 777))):
         np.testing.assert_array_equal(followed(gain, cuts), whole)
     for n in (0, 1, 79, 80, 500):
-        stage = Following(_Bed(np.ones(n)), RATE)
+        stage = LevelFollower(_Bed(np.ones(n)), RATE)
         assert len(np.concatenate([stage.run(np.ones(n)), stage.rest()])) == n
 
 
@@ -99,7 +99,7 @@ def test_follower_gain_is_bounded_and_continuous() -> None:
 
 
 def test_silence_stays_silent() -> None:
-    stage = Following(_Bed(np.ones(RATE)), RATE)
+    stage = LevelFollower(_Bed(np.ones(RATE)), RATE)
     assert not np.concatenate([stage.run(np.zeros(RATE)), stage.rest()]).any()
 
 

@@ -84,7 +84,7 @@ def test_a_way_costs_what_the_shortest_path_costs(seed: int) -> None:
                     assert (side, back) == (-1, None)
                     continue
                 assert back
-                way = traced.way(source, side)
+                way = traced.path(source, side)
                 assert (way.objects[0], way.objects[-1]) == (source, on)
                 there = tuple(map(Leg, way.objects[1:], way.entries_m, (*way.entries_m[1:], point_m), way.costs))
                 for legs in (there, back):
@@ -109,7 +109,7 @@ def test_a_way_crosses_no_more_contacts_than_allowed() -> None:
     for max_hops in (None, 3, 2):
         traced = TracedPaths(cost_per_m, contacts, [0.0] * 5, ("phone",), max_hops)
         side = int(traced.entered("t3", np.array([[3.0, 0.0, 0.0]]))[0, 0])
-        by_hops[max_hops] = traced.way("phone", side).objects if side >= 0 else ()
+        by_hops[max_hops] = traced.path("phone", side).objects if side >= 0 else ()
         back = PathsToPoint(cost_per_m, contacts, [0.0] * 5, max_hops, "t3", (3.0, 0.0, 0.0)).legs("phone")
         assert tuple(leg.object_id for leg in back or ()) == by_hops[max_hops][1:]
         assert [leg.cost for leg in back or ()] == pytest.approx([1.0, 2.0, 3.0] if back else [])
@@ -125,7 +125,7 @@ def test_of_equal_paths_the_one_with_fewer_contacts_is_taken() -> None:
     ]
     traced = TracedPaths({"tray": 0.0, "table": 1.0}, contacts, [0.0] * 3, ("phone",), None)
     side = int(traced.entered("table", np.array([[1.0, 0.0, 0.0]]))[0, 0])
-    assert traced.way("phone", side) == (("phone", "table"), ((0.0, 0.0, 0.0),), (0.0,))
+    assert traced.path("phone", side) == (("phone", "table"), ((0.0, 0.0, 0.0),), (0.0,))
 
 
 @pytest.mark.parametrize("max_hops", [None, 3])
@@ -139,9 +139,9 @@ def test_objects_of_a_path_are_those_of_its_way_without_detours(max_hops: int | 
     ]
     traced = TracedPaths({"rug": 5.0, "bar": 0.1, "cup": 1.0}, contacts, [0.0] * 4, ("phone",), max_hops)
     (on_rug,), (on_cup,) = (traced.entered(x, np.array([[5.0, 0.0, 0.0]]))[0].tolist() for x in ("rug", "cup"))
-    assert traced.way("phone", on_rug).objects == ("phone", "rug", "bar", "rug")
+    assert traced.path("phone", on_rug).objects == ("phone", "rug", "bar", "rug")
     n_crossed = 4 if max_hops is None else 2  # with three contacts the cup is reached over the rug alone
-    assert len(traced.way("phone", on_cup).entries_m) == n_crossed
+    assert len(traced.path("phone", on_cup).entries_m) == n_crossed
     assert traced.objects("phone", [on_cup, -1, on_rug]) == [("phone", "rug", "cup"), (), ("phone", "rug")]
 
 
