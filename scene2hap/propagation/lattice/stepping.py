@@ -187,8 +187,10 @@ def viscous_difference_db(loss_factor: ArrayLike, frequency_ratio: ArrayLike) ->
     sqrt(1 + eta^2) at r = 0.
     """
     eta, r = np.asarray(loss_factor, dtype=np.float64), np.asarray(frequency_ratio, dtype=np.float64)
-    if not (np.isfinite(eta) & (eta > 0)).all() or not (np.isfinite(r) & (r >= 0)).all():
-        raise ModelDomainError("loss_factor must be above 0 and frequency_ratio at least 0, both finite [-].")
+    for name, given, fits, bound in (("loss_factor", eta, eta > 0, "above 0"), ("frequency_ratio", r, r >= 0, ">= 0")):
+        wrong = given[~(fits & np.isfinite(given))]
+        if wrong.size:
+            raise ModelDomainError(f"{name} is {wrong[0]:g} [-]; it must be finite and {bound}.")
     ratio: NDArray[np.float64] = 20 * np.log10(np.hypot(1 - r**2, eta) / np.hypot(1 - r**2, eta * r))
     return ratio
 
