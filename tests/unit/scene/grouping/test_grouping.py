@@ -381,6 +381,18 @@ def test_other_leaves_stay_part_of_a_mesh(above: str, name: str, at: float) -> N
     assert list(objects(mesh(above, mesh(name, at=at)))) == [above]
 
 
+@pytest.mark.parametrize("above", ["Walls", "Floor", "Apartment", "hotel_room"])
+def test_the_mesh_of_a_room_takes_no_furniture(above: str) -> None:
+    pieces = mesh(f"{above}_trim"), mesh("Cube.003"), mesh("Wood"), mesh("Tile.001")
+    room = mesh(above, mesh("Table"), mesh("Fan"), mesh("Door"), *pieces)
+    assert objects(room) == {
+        above: [above, f"{above}_trim", "Cube.003", "Wood", "Tile.001"],
+        "Table": ["Table"],
+        "Fan": ["Fan"],
+        "Door": ["Door"],
+    }
+
+
 # -- what engines do not draw ----------------------------------------------------------------------------------------
 
 
