@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -18,7 +17,7 @@ from scene2hap.common.printable import writable
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.files import HABITAT_SUFFIX, is_habitat, read_bytes, scene_stem
+from scene2hap.scene.files import HABITAT_SUFFIX, decoded, is_habitat, read_bytes, scene_stem
 from scene2hap.scene.grouping.collapsed import warn_of_collapsed, without_collapsed
 from scene2hap.scene.grouping.empty_names import says_nothing
 from scene2hap.scene.grouping.groups import Grouping, group_objects, unique_ids
@@ -171,7 +170,7 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
     if suffix == ".obj":
         from scene2hap.scene.formats.obj import read_obj
 
-        return read_obj(_text(data), writable(path.stem), TextureFiles(path.parent, assets_root))
+        return read_obj(decoded(data), writable(path.stem), TextureFiles(path.parent, assets_root))
     if suffix == ".dae":
         from scene2hap.scene.formats.dae import read_dae
 
@@ -179,12 +178,6 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
     from scene2hap.scene.formats.stl_ply import read_stl_ply
 
     return read_stl_ply(data, suffix[1:], writable(path.stem))
-
-
-def _text(data: bytes) -> str:
-    """Decode a text file: UTF-16 if a mark at its beginning says so, as Windows shells write it, else UTF-8."""
-    is_utf_16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
-    return data.decode("utf-16" if is_utf_16 else "utf-8-sig", errors="replace")
 
 
 def _from_json(path: Path, up_axis: UpAxis | None, unit_m: float | None, group: Grouping) -> SceneSnapshot:
