@@ -123,7 +123,8 @@ def _require_same_scene(poses: Mapping[str, Pose], session: HapticSession) -> No
         names = first_of([*map(repr, unknown)], _MOST_NAMED)
         raise SceneError(
             f"the engine lacks {len(unknown)} of {len(here)} objects of the session: {names}. Make the session of "
-            "the engine's own snapshot, or of a bundle that was baked from it."
+            "the engine's own snapshot, or of a bundle that was baked from it, and give the link the arguments of that "
+            "snapshot (group, geom_groups)."
         )
     if not all(isinstance(poses[object_id], Pose) for object_id in here):
         return  # the first update reports it

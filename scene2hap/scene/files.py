@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -86,6 +87,20 @@ def read_bytes(path: Path) -> bytes:
         return path.read_bytes()
     except OSError as cause:
         raise SceneError(f"{str(path)!r} cannot be read: {reason_of(cause)}.") from cause
+
+
+def decoded(data: bytes) -> str:
+    """Decode a text file of a scene.
+
+    It is UTF-16 if a mark at its beginning says so, as Windows shells write it, else UTF-8. Text that is not UTF-8 has
+    the code page of Western Windows (1252), in which 3ds Max and other programs write names.
+    """
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return data.decode("utf-16", errors="replace")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("cp1252", errors="replace")
 
 
 def check_file(path: Path) -> None:

@@ -24,14 +24,14 @@ from scene2hap.scene.copies import as_copy, material_names
 from scene2hap.scene.files import HABITAT_SUFFIX
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject, with_relative_heights
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.shapes import DominantSurface, Geometry
+from scene2hap.scene.shapes import Box, DominantSurface, Geometry, TriMesh
 from scene2hap.scene.surface import plate_sizes
 
 FORMAT = "scene2hap/scene"
 VERSION = 1
 
 _scene: TypeAdapter[SceneData] = TypeAdapter(SceneData)
-_geometry: TypeAdapter[Geometry] = TypeAdapter(Geometry)
+_geometries: dict[str, TypeAdapter[Any]] = {"box": TypeAdapter(Box), "mesh": TypeAdapter(TriMesh)}
 _SCENE_FIELDS = frozenset({"format", "version", "name", "up_axis", "objects", "contacts", "geometries"})
 _OBJECT_FIELDS = frozenset(
     {"id", "name", "pose", "geometry", "surface", "relative_height_m", "instance_key", "mass_kg", "hinge"}
@@ -101,11 +101,14 @@ def from_document(document: dict[str, Any]) -> SceneData:
     try:
         if not isinstance(table, dict):
             raise SceneError("geometries must be an object that maps a key to a geometry.")
-        shared = {key: _geometry.validate_python(row) for key, row in table.items()}
+        shared = {key: _as_geometry(row, f"geometries.{key}") for key, row in table.items()}
         objects = document.get("objects")
         if isinstance(objects, list):
             limits.at_most("the number of objects", len(objects), "MAX_OBJECTS")
-            objects = [_with_geometry(_without_nulls(row), shared) for row in objects]
+            objects = [
+                _with_geometry(_without_nulls(row), shared, f"objects.{number}.geometry")
+                for number, row in enumerate(objects)
+            ]
         fields = {key: document[key] for key in ("name", "up_axis", "contacts") if key in document}
         scene = _scene.validate_python({**fields, "objects": objects})
     except ValidationError as cause:
@@ -117,7 +120,13 @@ def from_document(document: dict[str, Any]) -> SceneData:
     rows = document["objects"]
     _warn_of_slips("the scene", _SCENE_FIELDS, [document])
     _warn_of_slips("an object", _OBJECT_FIELDS, rows)
-    _warn_of_slips("a pose", _POSE_FIELDS, [row["pose"] for row in rows if isinstance(row["pose"], dict)])
+    poses = [row["pose"] for row in rows if isinstance(row["pose"], dict)]
+    _warn_of_slips("a pose", _POSE_FIELDS, poses)
+    if scale := next((x["scale"] for x in (*rows, *poses) if "scale" in x and x["scale"] not in (1, [1, 1, 1])), None):
+        warn_of(
+            f"the field 'scale', {checks.represented(scale)}, is ignored: objects and poses have no scale. Multiply "
+            "size_m or vertices_m by it."
+        )
     is_whole = all(row.get(key) is not None for row in rows for key in _FOUND_FIELDS)
     return scene if is_whole else _completed(scene, rows)
 
@@ -139,9 +148,30 @@ def geometry_key(geometry: Geometry) -> str:
     return "box-" + "x".join(f"{edge!r}" for edge in geometry.size_m)
 
 
-def _with_geometry(row: Any, shared: dict[str, Geometry]) -> Any:
-    if not isinstance(row, dict) or not isinstance(row.get("geometry"), str):
+def _as_geometry(row: Any, place: str) -> Any:
+    """Return a box or a mesh. Its errors are those of its kind: of a mesh with a wrong face, none speaks of a box."""
+    if isinstance(row, Box | TriMesh):
         return row
+    if not isinstance(row, dict):
+        raise SceneError(
+            f"scene field {place} is {checks.represented(row)}; it must be a box or a mesh, as "
+            '{"kind": "box", "size_m": [1, 1, 1]}.'
+        )
+    kind = row.get("kind", "box" if "size_m" in row else "mesh")
+    if not isinstance(kind, str) or kind not in _geometries:
+        raise SceneError(f"scene field {place}.kind is {checks.represented(kind)}; it must be 'box' or 'mesh'.")
+    try:
+        return _geometries[kind].validate_python(row)
+    except ValidationError as cause:
+        problem = checks.first_problem(cause)
+        raise SceneError(f"scene field {'.'.join(filter(None, (place, problem.place)))}: {problem.reason}.") from cause
+
+
+def _with_geometry(row: Any, shared: dict[str, Geometry], place: str) -> Any:
+    if not isinstance(row, dict) or "geometry" not in row:
+        return row
+    if not isinstance(row["geometry"], str):
+        return {**row, "geometry": _as_geometry(row["geometry"], place)}
     key = row["geometry"]
     if key not in shared:
         raise SceneError(f"object {row.get('id')!r} names geometry {key!r}, which the table geometries lacks.")

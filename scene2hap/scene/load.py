@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -18,7 +17,8 @@ from scene2hap.common.printable import writable
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.files import HABITAT_SUFFIX, is_habitat, read_bytes, scene_stem
+from scene2hap.scene.files import HABITAT_SUFFIX, decoded, is_habitat, read_bytes, scene_stem
+from scene2hap.scene.grouping.collapsed import warn_of_collapsed, without_collapsed
 from scene2hap.scene.grouping.empty_names import says_nothing
 from scene2hap.scene.grouping.groups import Grouping, group_objects, unique_ids
 from scene2hap.scene.grouping.object_maker import ObjectMaker
@@ -74,8 +74,8 @@ def load_scene(
     large (`scene2hap.scene.limits`), empty, wants a file outside assets_root, or holds invalid geometry. MissingExtra:
     a decoder, MuJoCo or usd-core is not installed.
     Warns: UnitWarning: without unit_m, if sizes are implausible as metres. TextureWarning: textures are missing,
-    broken, too large or outside assets_root; the scene is read without them. SceneWarning: something of a Habitat scene
-    is left out.
+    broken, too large or outside assets_root; the scene is read without them. SceneWarning: nodes without size, or
+    something of a Habitat scene, are left out.
     """
     path = checks.path("path", path, error=SceneError)
     if up_axis is not None and not (isinstance(up_axis, str) and up_axis in ("y", "z")):
@@ -170,7 +170,7 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
     if suffix == ".obj":
         from scene2hap.scene.formats.obj import read_obj
 
-        return read_obj(_text(data), writable(path.stem), TextureFiles(path.parent, assets_root))
+        return read_obj(decoded(data), writable(path.stem), TextureFiles(path.parent, assets_root))
     if suffix == ".dae":
         from scene2hap.scene.formats.dae import read_dae
 
@@ -178,12 +178,6 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
     from scene2hap.scene.formats.stl_ply import read_stl_ply
 
     return read_stl_ply(data, suffix[1:], writable(path.stem))
-
-
-def _text(data: bytes) -> str:
-    """Decode a text file: UTF-16 if a mark at its beginning says so, as Windows shells write it, else UTF-8."""
-    is_utf_16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
-    return data.decode("utf-16" if is_utf_16 else "utf-8-sig", errors="replace")
 
 
 def _from_json(path: Path, up_axis: UpAxis | None, unit_m: float | None, group: Grouping) -> SceneSnapshot:
@@ -207,9 +201,15 @@ def _from_mjcf(path: Path, up_axis: UpAxis | None, unit_m: float, group: Groupin
 
 
 def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float, group: Grouping) -> SceneSnapshot:
+    roots, collapsed = without_collapsed(authored.roots)
     # Transforms of a broken file may overflow when they are multiplied; MeshPool refuses the results.
     with np.errstate(all="ignore"):
-        groups = group_objects(authored.roots, group, scene_name=name)
+        groups = group_objects(roots, group, scene_name=name)
+    if not groups and collapsed:
+        raise SceneError(
+            f"no object in scene {name!r} has a size: the scale is 0, or all vertices are in one point. Check both."
+        )
+    warn_of_collapsed(name, collapsed)
     if not groups:
         raise SceneError(f"scene {name!r} holds no triangles; nothing in it can be touched. Export it with meshes.")
     limits.at_most("the number of objects", len(groups), "MAX_OBJECTS")

@@ -32,10 +32,11 @@ def ellipsoid(half_m: ArrayLike) -> Triangles:
     return vertices * np.asarray(half_m, dtype=np.float64), faces
 
 
-def cylinder(radius_m: float, half_length_m: float) -> Triangles:
-    """Return a closed cylinder along z."""
+def cylinder(radius_m: float, half_length_m: float, top_radius_m: float | None = None) -> Triangles:
+    """Return a closed cylinder along z; with another radius at its top, a truncated cone."""
     rims = np.array([-half_length_m, half_length_m])
-    return _turned(np.full(2, radius_m), rims, -half_length_m, half_length_m)
+    radii = np.array([radius_m, radius_m if top_radius_m is None else top_radius_m])
+    return _turned(radii, rims, -half_length_m, half_length_m)
 
 
 def cone(radius_m: float, half_length_m: float) -> Triangles:
@@ -43,12 +44,14 @@ def cone(radius_m: float, half_length_m: float) -> Triangles:
     return _turned(np.array([radius_m]), np.array([-half_length_m]), -half_length_m, half_length_m)
 
 
-def capsule(radius_m: float, half_length_m: float) -> Triangles:
-    """Return a cylinder along z with half spheres at its ends, beyond its half length."""
+def capsule(radius_m: float, half_length_m: float, top_radius_m: float | None = None) -> Triangles:
+    """Return a cylinder or truncated cone along z with half spheres at its ends, beyond its half length."""
+    top_m = radius_m if top_radius_m is None else top_radius_m
     angles = np.linspace(0.0, np.pi / 2, SIDES // 4 + 1)[:-1]
-    radii, rise = radius_m * np.cos(angles), half_length_m + radius_m * np.sin(angles)
-    tip = half_length_m + radius_m
-    return _turned(np.concatenate((radii[::-1], radii)), np.concatenate((-rise[::-1], rise)), -tip, tip)
+    out, up = np.cos(angles), np.sin(angles)
+    radii = np.concatenate((radius_m * out[::-1], top_m * out))
+    heights = np.concatenate((-half_length_m - radius_m * up[::-1], half_length_m + top_m * up))
+    return _turned(radii, heights, -half_length_m - radius_m, half_length_m + top_m)
 
 
 def rectangle(half_x_m: float, half_y_m: float) -> Triangles:

@@ -3,7 +3,8 @@
 Objects are found by the rule of the file loaders (`scene.grouping.groups`), since a scene graph keeps the structure
 of its artists' files. The pose of an object is that of the innermost node that contains all its triangles, even if
 another node names it. Instances are separate objects that share a mesh. Hidden and stashed nodes, lines and points are
-left out. Only the finest level of detail is read. Animated characters keep the pose in which they were modelled.
+left out, as are nodes of scale 0. Only the finest level of detail is read. Animated characters keep the pose in which
+they were modelled.
 
 A session follows a graph by `scene2hap.engines.Panda3DLink`, which reads poses by a `PoseReader`.
 """
@@ -20,6 +21,7 @@ from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.panda3d_geoms import GeomReader
+from scene2hap.scene.grouping.collapsed import warn_of_collapsed, without_collapsed
 from scene2hap.scene.grouping.groups import Group, Grouping, group_objects, unique_ids
 from scene2hap.scene.grouping.object_maker import ObjectMaker
 from scene2hap.scene.grouping.rigid_meshes import rigid_part
@@ -47,7 +49,8 @@ def snapshot(
         Panda3D's own, which `coordinate-system` sets; group : the rule by which nodes become objects; unit_m : metres
         per unit of the graph; None means metres.
     Raises: MissingExtra: Panda3D is not installed. SceneError: there are no triangles, or a number is invalid.
-    Warns: UnitWarning: without unit_m, if sizes are implausible as metres.
+    Warns: UnitWarning: without unit_m, if sizes are implausible as metres. SceneWarning: nodes without size are left
+    out.
     """
     if up_axis not in ("y", "z", None):
         raise SceneError(f"up_axis is {up_axis!r}; it must be 'y', 'z' or None.")
@@ -55,13 +58,18 @@ def snapshot(
     metres = metres_per_unit(unit_m)
     graph = _Graph.read(render)
     maker = ObjectMaker(up_axis, metres)
+    # Objects without size are left out after ids are given: a link made while one is hidden by scale 0 finds it too.
+    shown, collapsed = without_collapsed([graph.root])
+    pieces = {id(piece) for root in shown for node in root.walk() for piece in node.pieces}
     objects = [
         maker.make(object_id, found, _pose(path.get_net_transform(), metres))
         for object_id, (found, path, _) in graph.objects(group).items()
+        if any(id(piece) in pieces for _, piece in found.parts)
     ]
     title = name or render.get_name() or "panda3d"
     if not objects:
         raise SceneError(f"scene {title!r} draws no triangles; nothing in it can be touched.")
+    warn_of_collapsed(title, collapsed)
     scene = SceneSnapshot(title, up_axis, with_relative_heights(objects, up_axis))
     if unit_m is None:
         warn_if_implausible(scene, source="engine")

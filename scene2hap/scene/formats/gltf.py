@@ -17,8 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common import checks
-from scene2hap.common.counted import counted
-from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.formats.gltf_accessors import indices, vectors
@@ -35,7 +33,6 @@ from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece, tra
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _FLOAT = 5126
-_SHOWN = 5  # nodes that a warning lists
 # Vertex colours above this do not change a material.
 _NEARLY_WHITE = 0.999
 
@@ -44,21 +41,15 @@ _Attribute = Callable[[str, tuple[str, ...]], NDArray[np.float64]]
 
 
 def read_gltf(path: Path, assets_root: Path) -> AuthoredScene:
-    """Return the file's default scene with its looks. A node of scale 0 is left out: games and editors so hide objects.
+    """Return the file's default scene with its looks.
 
     Raises: SceneFormatError, SceneError: the file is broken, has a reference to something missing, or needs an
-    extension that cannot be read. Warns: SceneWarning: nodes of scale 0.
+    extension that cannot be read.
     """
     file = GltfFile(path, assets_root)
     textures = TextureFiles(path.parent, assets_root)
     reader = _Reader(file, GltfMaterials(file, textures))
     roots = tuple(node for number in _roots(file) for node in reader.nodes(number, 1))
-    if reader.hidden:
-        shown = ", ".join(reader.hidden[:_SHOWN]) + (", ..." if len(reader.hidden) > _SHOWN else "")
-        warn_of(
-            f"{path.name}: left out {counted(len(reader.hidden), 'node')} of scale 0, which no viewer shows: {shown}."
-            " Scale what should be felt to its size."
-        )
     return AuthoredScene(roots, left_out=textures.left_out)
 
 
@@ -74,7 +65,6 @@ class _Reader:
         self._same_pieces: dict[str, tuple[Piece, ...]] = {}
         self._scaled_pieces: dict[tuple[object, bytes], Piece] = {}
         self._size = limits.TreeSize()
-        self.hidden: list[str] = []
 
     def nodes(self, number: int, depth: int) -> tuple[AuthoredNode, ...]:
         """Return one node, or one for each copy of an instanced mesh: those of the file before it was packed."""
@@ -88,10 +78,6 @@ class _Reader:
         name = _name(row)
         place = f"node {name!r}" if name else f"nodes[{number}]"
         matrix = _matrix(row, place)
-        if not matrix[:3, :3].any():
-            if row.keys() & {"mesh", "children"}:
-                self.hidden.append(place)
-            return ()
         pieces: tuple[Piece, ...] = ()
         places = None
         if "mesh" in row:

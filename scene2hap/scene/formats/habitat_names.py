@@ -26,7 +26,7 @@ from scene2hap.common import checks
 from scene2hap.common.printable import writable
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError
-from scene2hap.scene.files import read_bytes
+from scene2hap.scene.files import decoded, read_bytes
 from scene2hap.scene.formats.habitat_dataset import Dataset, plain_name, read_object
 
 Names = Mapping[str, str] | str | os.PathLike[str]
@@ -105,7 +105,7 @@ def _csv(file: Path, columns: Sequence[str]) -> dict[str, str]:
     data = read_bytes(file)
     if len(data) > _MOST_BYTES:
         raise SceneError(f"{file.name!r} has {len(data):,} bytes; tables of names of up to {_MOST_BYTES:,} are read.")
-    text = writable(data.decode("utf-8-sig", errors="replace")).replace("\0", "")
+    text = writable(decoded(data)).replace("\0", "")
     found: dict[str, str] = {}
     try:
         rows = csv.reader(io.StringIO(text, newline=""))

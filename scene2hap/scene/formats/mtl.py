@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import SceneError
-from scene2hap.scene.files import inside, read_bytes
+from scene2hap.scene.files import decoded, inside, read_bytes
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.looks.texture_files import TextureFiles
 
@@ -85,7 +85,7 @@ class MtlLibraries:
             except SceneError as error:
                 self.textures.refuse(name, str(error))
                 continue
-            for material, rows in _blocks(data.decode("utf-8", errors="replace")):
+            for material, rows in _blocks(decoded(data)):
                 self.materials[material] = self._material(rows, material)
 
     def _material(self, rows: dict[str, str], name: str) -> MtlMaterial:

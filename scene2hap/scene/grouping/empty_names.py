@@ -20,6 +20,9 @@ _EMPTY = frozenset(_WORDS.split())
 _LETTER_AND_NUMBER = re.compile(r"[A-Za-z][ ._-]?\d+")
 _EXPORTER_NODE = re.compile(
     r"(sketchfab_model|osg_scene|auxscene|gltf_sceneroot\w*|rootnode\b.*|root|scene|scene root|world|group|empty"
+    # Of SketchUp, Assimp (3DS), OpenCOLLADA, Blender, Roblox and Unreal.
+    r"|<?sketchup>?|<?3dsroot>?|visualscenenode|collada visual scene group|(scene )?collection([ ._]?\d+)?|workspace"
+    r"|persistent ?level"
     r"|.*\.(fbx|obj|dae|3ds|gltf|glb|blend|max|stl|ply|skp|c4d|usdz?)(\..*)?)",
     re.IGNORECASE,
 )

@@ -7,7 +7,8 @@ their own nodes above. The rule "authored" undoes this. A mesh that a tool has c
 
 a. A node with a mesh of its own is an object. Its leaf children with meshes (a door, a drawer, a lid) are part of it. A
    child that has children is an object by itself, as is a leaf with a noun of its own outside the node's box: a mug
-   that stands on its table.
+   that stands on its table. Below the mesh of a place, a wall, a floor or a ceiling every leaf is one that has a
+   noun, but for tiles, panels and the like.
 b. A node without a mesh, and its leaf children without names or with names that begin with the node's name, are one
    object: `Cooktop` with `Cooktop_Burner_mat`. So are its children below which all names say nothing (`cube` over
    `mesh_geom`) or name parts (`seat`, `leg`, `door` over `handle`), if they are joined: prefabs, instanced collections
@@ -36,11 +37,16 @@ import numpy as np
 
 from scene2hap.common import checks
 from scene2hap.errors import SceneError
-from scene2hap.scene.grouping.empty_names import abbreviates, names_a_thing, says_nothing
+from scene2hap.scene.grouping.empty_names import abbreviates, names_a_place, names_a_thing, says_nothing
 from scene2hap.scene.grouping.loose_parts import loose_parts
 from scene2hap.scene.grouping.material_parts import rejoined
 from scene2hap.scene.grouping.not_drawn import without_undrawn
-from scene2hap.scene.grouping.part_names import names_another_thing, names_part, names_structure
+from scene2hap.scene.grouping.part_names import (
+    names_another_thing,
+    names_part,
+    names_structure,
+    names_thing_in,
+)
 from scene2hap.scene.grouping.split import Member, split, stand_apart
 from scene2hap.scene.tree import AuthoredNode, Matrix, Piece
 
@@ -181,8 +187,15 @@ def _is_part(child: AuthoredNode, node: AuthoredNode) -> bool:
 
 def _is_thing_beside(child: AuthoredNode, own: Member) -> bool:
     """Return True if a leaf is a thing that the author put on another, as a mug on a table: it has a noun of its own,
-    and is outside the box of the other's own mesh. Both boxes are along the axes of the node."""
-    if _continues(child.name, own.name) or not names_another_thing(child.name, own.name):
+    and is outside the box of the other's own mesh. Both boxes are along the axes of the node.
+
+    The box of a room holds all its furniture, and a wall has doors and shelves: these are things by their noun alone.
+    """
+    if _continues(child.name, own.name):
+        return False
+    if names_structure(own.name) or names_a_place(own.name):
+        return names_thing_in(child.name, own.name)
+    if not names_another_thing(child.name, own.name):
         return False
     (low, high), (own_low, own_high) = Member(child.name, child.matrix, child.pieces).box, own.box
     slack = _PART_GAP * float(np.linalg.norm(own_high - own_low))

@@ -26,8 +26,12 @@ _NO_NOUNS = """
     clone copy instance shape group sub model item element piece pivot joint bezier curve text textured untitled
     icosphere
 """
+# Pieces that walls, floors and ceilings are built of.
+_BUILT_OF = """
+    baseboard beam board brick molding moulding panel plank skirting slab tile trim
+"""
 _PART_WORDS, _OTHER_WORDS = frozenset(_PARTS.split()), frozenset(_NO_NOUNS.split())
-_STRUCTURE = frozenset(("wall", "floor", "ceiling"))
+_STRUCTURE, _COVERING = frozenset(("wall", "floor", "ceiling")), frozenset(_BUILT_OF.split())
 _WORD = re.compile(r"[A-Z]?[^\W\d_A-Z]+|[A-Z]+(?![^\W\d_A-Z])")
 
 
@@ -40,7 +44,18 @@ def has_own_noun(name: str, group_name: str) -> bool:
 def names_another_thing(name: str, other: str) -> bool:
     """Return True if a name ends in a noun that names no part and is no word of the other name: `Mug` beside `Table`,
     not `chair` beside `chairDesk`."""
-    return has_own_noun(name, other) and _head(name) not in _words(other)
+    return has_own_noun(name, other) and _has_another_noun(name, other)
+
+
+def names_thing_in(name: str, structure: str) -> bool:
+    """Return True if a name ends in a noun that is no piece of a place, a wall or a floor: `Shelf`, not `Tile`."""
+    return _has_another_noun(name, structure) and not _singulars(_head(name)) & _COVERING
+
+
+def _has_another_noun(name: str, other: str) -> bool:
+    """Return True if a name ends in a noun that is no word of the other name."""
+    head = _head(name)
+    return bool(head) and head not in _words(other)
 
 
 def names_part(name: str, group_name: str) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import warnings
 from dataclasses import replace
 from typing import Any
@@ -110,6 +111,38 @@ def test_object_can_contain_its_geometry() -> None:
     del document["geometries"]
     document["objects"][0]["geometry"] = {"kind": "box", "size_m": [1, 2, 3]}
     assert SceneSnapshot.from_json(json.dumps(document)).object("a").geometry == Box((1.0, 2.0, 3.0))
+
+
+@pytest.mark.parametrize(
+    ("geometry", "sentence"),
+    [
+        ({"kind": "mesh", "vertices_m": [[0, 0, 0]] * 4, "faces": [[0, 1, 2, 3]]}, ": faces has shape (1, 4)"),
+        ({"kind": "mesh", "vertices_m": [0, 0, 0], "faces": [0, 0, 0]}, ": vertices_m has shape (3,)"),
+        ({"vertices_m": [[0, 0, 0]] * 3}, ".faces: Field required"),
+        ({"kind": "box", "size_m": [1, 0, 1]}, ": size_m[1] is 0 m"),
+        ({"kind": "sphere", "radius_m": 1}, ".kind is 'sphere'; it must be 'box' or 'mesh'"),
+        ([1, 1, 1], " is [1, 1, 1]; it must be a box or a mesh"),
+    ],
+)
+def test_errors_of_a_geometry_are_those_of_its_kind(geometry: object, sentence: str) -> None:
+    """Errors of a mesh once said that `Box.size_m` is missing."""
+    own, shared = _document(), _document()
+    own["objects"][0]["geometry"] = geometry
+    shared["objects"][0]["geometry"], shared["geometries"]["desk"] = "desk", geometry
+    for document, place in ((own, "objects.0.geometry"), (shared, "geometries.desk")):
+        with pytest.raises(SceneError, match=re.escape(f"scene field {place}{sentence}")):
+            SceneSnapshot.from_json(json.dumps(document))
+
+
+@pytest.mark.parametrize("where", ["object", "pose"])
+def test_a_scale_is_ignored_with_a_warning(where: str) -> None:
+    document = _document()
+    row = document["objects"][0]
+    (row if where == "object" else row["pose"])["scale"] = [1, 1, 1]
+    SceneSnapshot.from_json(json.dumps(document))
+    (row if where == "object" else row["pose"])["scale"] = [1, 2, 1]
+    with pytest.warns(SceneWarning, match=r"'scale', \[1, 2, 1\], is ignored: .* Multiply size_m or vertices_m by it"):
+        SceneSnapshot.from_json(json.dumps(document))
 
 
 def test_optional_fields_have_defaults() -> None:

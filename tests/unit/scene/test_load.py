@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from gltf_builder import Gltf, one_cube
+from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -159,3 +160,28 @@ def test_a_pointer_of_git_lfs_says_so(tmp_path: Path, suffix: str) -> None:
     path.write_bytes(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12\n")
     with pytest.raises(SceneFormatError, match=r"'room\..*' is a pointer of Git LFS.*run `git lfs pull`"):
         load_scene(path)
+
+
+POINT = 3 * "v 0.5 0 0.5\n" + "f -3 -2 -1\n"
+SHEET = "v 0 0 0\nv 1 0 0\nv 0 0 1\nf -3 -2 -1\n"
+
+
+def test_a_mesh_in_one_point_is_left_out_with_a_warning(tmp_path: Path) -> None:
+    """Left in files by mistake; in an earlier version it refused the whole scene."""
+    path = tmp_path / "scene.obj"
+    path.write_text(f"o dot\n{POINT}o table\n{SHEET}", encoding="utf-8")
+    with pytest.warns(SceneWarning, match=r"'scene' is read without 1 node .*: 'dot'\. Give a size"):
+        assert [item.id for item in load_scene(path).objects] == ["table"]
+
+
+def test_a_scene_without_any_size_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "scene.obj"
+    path.write_text(f"o dot\n{POINT}", encoding="utf-8")
+    with pytest.raises(SceneError, match="no object in scene 'scene' has a size"):
+        load_scene(path)
+
+
+def test_pieces_in_one_point_do_not_take_the_other_pieces_of_a_mesh(tmp_path: Path) -> None:
+    path = tmp_path / "scene.obj"
+    path.write_text(f"o table\nusemtl a\n{SHEET}usemtl b\n{POINT}", encoding="utf-8")
+    assert len(load_scene(path).object("table").geometry.mesh.faces) == 2

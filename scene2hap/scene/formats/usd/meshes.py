@@ -3,7 +3,8 @@
 A subdivision surface is read as its control mesh, which is a little outside the surface. Points, curves and NURBS are
 left out.
 
-Source: OpenUSD 26.11, schemas Mesh, GeomSubset, Cube, Sphere, Cylinder, Cone, Capsule, Plane.
+Source: OpenUSD 26.11, schemas Mesh, GeomSubset, Cube, Sphere, Cylinder, Cylinder_1, Cone, Capsule, Capsule_1,
+Plane.
 """
 
 from __future__ import annotations
@@ -133,6 +134,15 @@ _SHAPES: dict[str, tuple[tuple[str, ...], Callable[..., solids.Triangles]]] = {
     "Sphere": (("radius",), lambda half_radius: solids.ellipsoid([2 * half_radius] * 3)),
     "Cylinder": (("radius", "height"), lambda half_radius, half: solids.cylinder(2 * half_radius, half)),
     "Capsule": (("radius", "height"), lambda half_radius, half: solids.capsule(2 * half_radius, half)),
+    # Later versions of two schemas, which have a radius for each end.
+    "Cylinder_1": (
+        ("radiusBottom", "height", "radiusTop"),
+        lambda half_low, half, half_high: solids.cylinder(2 * half_low, half, 2 * half_high),
+    ),
+    "Capsule_1": (
+        ("radiusBottom", "height", "radiusTop"),
+        lambda half_low, half, half_high: solids.capsule(2 * half_low, half, 2 * half_high),
+    ),
     "Cone": (("radius", "height"), lambda half_radius, half: solids.cone(2 * half_radius, half)),
     "Plane": (("width", "length"), solids.rectangle),
 }

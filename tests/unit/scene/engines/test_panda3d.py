@@ -11,6 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from scene2hap import ContactGraph, SceneObject
+from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import MissingExtra, SceneError
 from scene2hap.scene.engines.panda3d import PoseReader, snapshot
 from scene2hap.scene.plausibility.units import UnitWarning
@@ -188,6 +189,19 @@ def test_hidden_nodes_and_coarser_levels_are_left_out() -> None:
     scene = snapshot(render)
     assert {item.id for item in scene.objects} == {"seen", "lamp"}
     np.testing.assert_allclose(scene.object("lamp").bounds_m[1], (1, 1, 1), atol=1e-6)
+
+
+def test_nodes_of_scale_0_are_left_out_and_followed_all_the_same() -> None:
+    """Games hide things so. A session that was baked while the thing was shown still follows it."""
+    render = core.NodePath("render")
+    attach(render, "table")
+    fan = render.attach_new_node("fan")
+    attach(fan, "fan_blade").set_x(2.0)
+    assert {item.id for item in snapshot(render).objects} == {"table", "fan"}
+    fan.set_scale(0.0)
+    with pytest.warns(SceneWarning, match=r"is read without 1 node .*: 'fan'\."):
+        assert [item.id for item in snapshot(render).objects] == ["table"]
+    assert set(PoseReader(render).read()) == {"table", "fan"}
 
 
 def test_what_hangs_below_the_camera_keeps_its_own_name() -> None:

@@ -393,6 +393,13 @@ def test_a_broken_table_of_the_dataset_costs_names_alone(dataset: Dataset) -> No
         assert named(dataset.scene(instance(HASH))) == [HASH]
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
+def test_names_of_a_table_are_read_in_the_encodings_of_spreadsheets(dataset: Dataset, encoding: str) -> None:
+    path = dataset.folder / "names.csv"
+    path.write_bytes(f"id,name\n{HASH},Spülmaschine\n".encode(encoding))
+    assert named(dataset.scene(instance(HASH)), names=path) == ["Spülmaschine"]
+
+
 @pytest.mark.parametrize("form", ["mapping", "names.json", "names.csv"])
 def test_names_are_read_from_mapping_json_or_csv(dataset: Dataset, form: str) -> None:
     dataset.write("metadata/object_categories_filtered.csv", f"id,clean_category\n{HASH},box\n{CHAIR},seat\n")

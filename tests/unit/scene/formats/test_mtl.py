@@ -34,6 +34,17 @@ def one(path: Path) -> SceneObject:
     return item
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
+def test_names_of_materials_and_files_are_read_in_any_encoding(tmp_path: Path, encoding: str) -> None:
+    (tmp_path / "Türe.png").write_bytes(image_file())
+    (tmp_path / "Möbel.mtl").write_bytes("newmtl Ölfarbe\nmap_Kd Türe.png\n".encode(encoding))
+    (tmp_path / "scene.obj").write_bytes(f"mtllib Möbel.mtl\n{SQUARE}usemtl Ölfarbe\n{FACE}".encode(encoding))
+    item = one(tmp_path / "scene.obj")
+    assert item.material_names == ("Ölfarbe",)
+    assert item.appearance is not None
+    assert item.appearance.materials[0].has_texture
+
+
 @pytest.mark.parametrize(
     ("rows", "rgba"),
     [

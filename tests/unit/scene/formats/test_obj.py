@@ -34,9 +34,9 @@ def test_every_face_syntax_is_read(face: str) -> None:
     assert corners(SQUARE + face) == [[[0, 0, 0], [1, 0, 0], [1, 1, 0]]]
 
 
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-be"])
-def test_a_file_of_any_unicode_is_read(tmp_path: Path, encoding: str) -> None:
-    """Windows shells write UTF-16 when output is redirected. In an earlier version such a file had no triangles."""
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-be", "cp1252"])
+def test_names_are_read_in_any_unicode_and_in_that_of_windows(tmp_path: Path, encoding: str) -> None:
+    """Windows shells write UTF-16 when output is redirected, and 3ds Max writes code page 1252."""
     mark = "\ufeff" if encoding == "utf-16-be" else ""
     path = tmp_path / "room.obj"
     path.write_bytes((mark + f"o Türe\n{SQUARE}f 1 2 3 4\n").encode(encoding))

@@ -123,6 +123,16 @@ def test_a_wrapper_whose_name_says_nothing_takes_no_name_away(wrapper: str) -> N
     assert list(objects(group("candle holder", mesh("candle")))) == ["candle holder"]
 
 
+@pytest.mark.parametrize("root", ["SketchUp", "<3DSRoot>", "Collection", "Persistent Level"])
+def test_nodes_of_exporters_join_no_children(root: str) -> None:
+    """They hold the whole scene, whose unnamed groups touch: it was one object."""
+    assert list(objects(group(root, mesh("group_0"), mesh("Fan", at=1.0), mesh("Cube.001")))) == [
+        "group_0",
+        "Fan",
+        "Cube.001",
+    ]
+
+
 def test_wrapper_node_gives_the_object_frame() -> None:
     (item,) = group_objects([group("radio", mesh("radio(Clone)", at=1.0), at=5.0)])
     assert item.frame[0, 3] == 5.0
@@ -135,6 +145,14 @@ def test_wrapper_node_gives_the_object_frame() -> None:
         "RootNode",
         "RootNode (gltf orientation matrix)",
         "Sketchfab_model",
+        "SketchUp",
+        "<3DSRoot>",
+        "VisualSceneNode",
+        "Collada visual scene group",
+        "Scene Collection",
+        "Collection 2",
+        "Workspace",
+        "PersistentLevel",
         "root",
         "Scene",
         "Kitchen.fbx",
@@ -379,6 +397,18 @@ def test_things_that_stand_on_a_mesh_are_objects(at: float) -> None:
 )
 def test_other_leaves_stay_part_of_a_mesh(above: str, name: str, at: float) -> None:
     assert list(objects(mesh(above, mesh(name, at=at)))) == [above]
+
+
+@pytest.mark.parametrize("above", ["Walls", "Floor", "Apartment", "hotel_room"])
+def test_the_mesh_of_a_room_takes_no_furniture(above: str) -> None:
+    pieces = mesh(f"{above}_trim"), mesh("Cube.003"), mesh("Wood"), mesh("Tile.001")
+    room = mesh(above, mesh("Table"), mesh("Fan"), mesh("Door"), *pieces)
+    assert objects(room) == {
+        above: [above, f"{above}_trim", "Cube.003", "Wood", "Tile.001"],
+        "Table": ["Table"],
+        "Fan": ["Fan"],
+        "Door": ["Door"],
+    }
 
 
 # -- what engines do not draw ----------------------------------------------------------------------------------------

@@ -306,6 +306,20 @@ def test_subsets_have_materials_of_their_own(tmp_path: Path) -> None:
         ("Cylinder", {"radius": 0.5, "height": 4.0, "axis": "Y"}, (1, 4, 1), np.pi),
         ("Cone", {"radius": 0.5, "height": 3.0, "axis": "Z"}, (1, 1, 3), np.pi / 4),
         ("Capsule", {"radius": 0.5, "height": 1.0, "axis": "X"}, (2, 1, 1), np.pi / 4 + np.pi / 6),
+        # A truncated cone: pi h (a^2 + a b + b^2) / 3.
+        (
+            "Cylinder_1",
+            {"radiusBottom": 0.5, "radiusTop": 0.25, "height": 3.0, "axis": "Y"},
+            (1, 3, 1),
+            np.pi * (0.25 + 0.125 + 0.0625),
+        ),
+        ("Capsule_1", {"radiusBottom": 0.5, "radiusTop": 0.5, "height": 1.0}, (1, 1, 2), np.pi / 4 + np.pi / 6),
+        (
+            "Capsule_1",
+            {"radiusBottom": 0.5, "radiusTop": 0.25, "height": 3.0},
+            (1, 1, 3.75),
+            np.pi * (0.25 + 0.125 + 0.0625) + 2 * np.pi / 3 * (0.125 + 0.015625),
+        ),
         ("Plane", {"width": 2.0, "length": 3.0, "axis": "Z"}, (2, 3, 0), 0.0),
         ("Plane", {"width": 2.0, "length": 3.0, "axis": "Y"}, (2, 0, 3), 0.0),
         ("Plane", {"width": 2.0, "length": 3.0, "axis": "X"}, (0, 3, 2), 0.0),
@@ -322,6 +336,14 @@ def test_shapes_have_their_sizes(
     (item,) = scene_of(fill, tmp_path).objects
     np.testing.assert_allclose(np.ptp(item.bounds_m, axis=0), size, atol=1e-9)
     assert volume(item) == pytest.approx(exact, rel=0.02)
+
+
+def test_a_truncated_cone_has_its_smaller_end_along_its_axis(tmp_path: Path) -> None:
+    text = 'def Cylinder_1 "a" { token axis = "Y"\n double radiusTop = 0.25\n }\n'
+    (cone,) = load_scene(text_file(tmp_path, text), unit_m=1.0).objects
+    points = cone.geometry.mesh.vertices_m
+    assert np.hypot(*points[points[:, 1] == points[:, 1].max()][:, [0, 2]].T).max() == pytest.approx(0.25)
+    assert np.hypot(*points[points[:, 1] == points[:, 1].min()][:, [0, 2]].T).max() == pytest.approx(1.0)
 
 
 def test_a_cone_has_its_tip_along_its_axis(tmp_path: Path) -> None:
