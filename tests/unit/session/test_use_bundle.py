@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 import time
 import warnings
@@ -10,6 +11,7 @@ from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 from types import FrameType
+from typing import Any
 
 import numpy as np
 import pytest
@@ -202,6 +204,28 @@ def test_a_saved_bundle_and_one_edited_by_hand_are_followed(bundle: HapticBundle
         until(watch.update, watch)
         assert watch.problem == ""
     watch.close()
+
+
+def test_a_folder_that_is_gone_while_it_is_listed_does_not_end_the_watch(
+    bundle: HapticBundle, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As while a bundle is replaced: the parent is listed before, and its folder after."""
+    folder = bundle.save(tmp_path / "b")
+    session, listed, n_gone = HapticSession(folder), os.scandir, 0
+
+    def scandir(path: str) -> Any:
+        nonlocal n_gone
+        if os.path.basename(path) == "sounds":
+            n_gone += 1
+            raise FileNotFoundError(path)
+        return listed(path)
+
+    with BundleWatch(session, folder) as watch:
+        with monkeypatch.context() as patched:
+            patched.setattr(os, "scandir", scandir)
+            until(lambda: n_gone > 2, watch)
+        bundle.override(next(iter(bundle.loops)), gain_db=-6.0).save(folder)
+        until(watch.update, watch)
 
 
 @pytest.mark.parametrize("step", range(20))
