@@ -26,6 +26,9 @@ _BEGIN = _HEADER.size + _FRAME_COUNTS.size
 _POSE_BYTES, _TOUCH_BYTES = 28, 20
 _TOUCH = np.dtype([("hand", "<u4"), ("object", "<u4"), ("point_m", "<f4", 3)])
 NO_KEY = bytes(8)
+MAX_TOUCHES = 1024
+"""Most touches of a frame. Frames are processed on the event loop: a message of a million held up all other clients for
+75 s."""
 
 
 class Frame(NamedTuple):
@@ -83,6 +86,8 @@ def decode_frame(message: bytes) -> Frame:
         raise BridgeError(f"a frame has {len(message)} bytes; it must have at least {_BEGIN}.")
     _, _, _, layout, key, sequence, _, time_s = _HEADER.unpack_from(message)
     n_poses, n_touches = _FRAME_COUNTS.unpack_from(message, _HEADER.size)
+    if n_touches > MAX_TOUCHES:
+        raise BridgeError(f"a frame has {n_touches} touches; it must have at most {MAX_TOUCHES}. Send fewer points.")
     expected = _BEGIN + _POSE_BYTES * n_poses + _TOUCH_BYTES * n_touches
     if len(message) != expected:
         raise BridgeError(

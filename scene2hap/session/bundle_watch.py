@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections import deque
 from functools import partial
+from pathlib import Path
 from threading import Event
 from types import TracebackType
 from typing import Self
@@ -85,5 +86,7 @@ class BundleWatch:
             self.problem = str(error)
 
     def _stamps(self) -> frozenset[tuple[str, Stamp]]:
-        found = ((str(path), file_stamp(path)) for path in self._folder.rglob("*"))
+        # `walk` leaves out a folder that is gone by now, as while a bundle is replaced; `rglob` would raise.
+        paths = (Path(above, name) for above, folders, files in os.walk(self._folder) for name in (*folders, *files))
+        found = ((str(path), file_stamp(path)) for path in paths)
         return frozenset((name, stamp) for name, stamp in found if stamp is not None)

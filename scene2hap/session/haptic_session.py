@@ -64,7 +64,7 @@ from scene2hap.session.likely_mistakes import (
 )
 from scene2hap.session.mix.output import Output
 from scene2hap.session.mix.playback import Playback
-from scene2hap.session.mix.sources import Level, SourceInfo, SourceProgress, Sources
+from scene2hap.session.mix.sources import Level, LoopRow, SourceInfo, SourceProgress, Sources
 from scene2hap.session.mix.starts_and_stops import Switching
 from scene2hap.session.prepared_shapes import PreparedShapes
 from scene2hap.session.scene_state import SceneState
@@ -270,7 +270,8 @@ class HapticSession:
         require_addable(object, haptics, loops)
         if haptics is None and loops is None:
             haptics, loops = self._bundle.objects.get(object.id), self._bundle.loops.get(object.id)
-        self._put(object, haptics, loops or {}, self._bundle, object.id)
+        if self._put(object, haptics, loops or {}, self._bundle, object.id):
+            self._play_sources()
         self._mistakes.in_added(object.id, haptics, loops or {})
 
     def spawn(self, prefab: HapticBundle, object_id: str, pose: Pose) -> None:
@@ -284,15 +285,17 @@ class HapticSession:
         (original,) = prefab.snapshot.objects
         copy = replace(original, id=object_id, name=object_id, pose=pose)
         haptics, loops = prefab.objects.get(original.id), prefab.loops.get(original.id, {})
-        self._put(copy, haptics, loops, prefab, original.id)
+        if self._put(copy, haptics, loops, prefab, original.id):
+            self._play_sources()
         self._mistakes.in_added(object_id, haptics, loops)
 
     def use_bundle(self, bundle: HapticBundle) -> None:
         """Play a corrected bundle of the same scene: loops that differ are cross-faded, levels change at once.
 
-        Objects stay where they are. Sources keep their state if they still have it, and stay on or off. A level or mute
-        of `set_source` stays unless the bundle's value has changed. Objects that the session does not have, and others
-        that were spawned or added with data of their own, are left out.
+        An earlier loop is played until a worker has prepared the new one, and to the end of a start or stop that is
+        under way. Objects stay where they are. Sources keep their state if they still have it, and their place in its
+        cycle, and stay on or off. A level or mute of `set_source` stays unless the bundle's value has changed. Objects
+        that the session does not have, and others that were spawned or added with data of their own, are left out.
         Raises: BundleError: another type, or a bundle of another scene. Warns: OtherActuatorWarning: its
         loops were made for another actuator than the session's.
         """
@@ -323,15 +326,17 @@ class HapticSession:
         self._state.require(object_id)
         if len(self._state.objects) == 1:
             raise SessionError(f"{object_id!r} is the last object of the scene; add another one before removing it.")
-        self._take_out(object_id)
+        if self._take_out(object_id):
+            self._play_sources()
 
-    def _take_out(self, object_id: str) -> None:
+    def _take_out(self, object_id: str) -> bool:
+        """Remove an object, whose loops play on until `_play_sources`. Returns True if it is a source."""
         change = self._state.remove(object_id)
         is_source = object_id in self._sources
         if is_source:
             self._sources.remove(object_id)
-            self._playback.change_rows(self._sources.rows(), self._playback.now)
         self._hand_frames.apply(change, sources_changed=is_source)
+        return is_source
 
     def add_hand(self, name: str) -> None:
         """Add an output. A sink that is running is faded out and reopened with one channel more.
@@ -622,24 +627,35 @@ class HapticSession:
         loops: Mapping[str, HapticLoop],
         corrected: HapticBundle,
         its_id: str,
-    ) -> None:
-        """Add an object with the level and the mute switch that a bundle has for `its_id`."""
+    ) -> bool:
+        """Add an object with the level and the mute switch that a bundle has for `its_id`; `_play_sources` plays it.
+
+        Returns True if it is a source.
+        """
         change = self._state.add(item, haptics)
         self._shapes.order([item.geometry.mesh])
         if loops:
             self._sources.add(item.id, loops, haptics, _level(corrected, its_id))
-            self._playback.change_rows(self._sources.rows(), self._playback.now)
         self._hand_frames.apply(change, sources_changed=bool(loops))
+        return bool(loops)
 
     def _exchange(self, object_id: str) -> None:
         """Replace the data of an object by the bundle's present data, at the same pose."""
         item = replace(self._state.objects[object_id], pose=self._state.poses[object_id])
         before, bundle = self._sources.get(object_id), self._bundle
+        progress = None if before is None else self._switching.progress(object_id)
         self._take_out(object_id)
         self._put(item, bundle.objects.get(object_id), bundle.loops.get(object_id, {}), bundle, object_id)
-        if before is not None and object_id in self._sources:
-            self._sources.go_on(object_id, before)
+        after, instead = self._sources.get(object_id), None
+        if before is not None and after is not None and progress is not None:
+            self._switching.go_on(object_id, before, progress)
+            instead = after.rows[after.state], before.rows[before.state]
             self._hand_frames.levels_changed(is_other_state=True)
+        self._play_sources(instead)
+
+    def _play_sources(self, instead: tuple[LoopRow, LoopRow] | None = None) -> None:
+        """Play the loops of all sources; `instead` is a new row, and the one that it replaces."""
+        self._playback.change_rows(self._sources.rows(), self._playback.now, instead)
 
     def _stamp(self, at_sample: int | None) -> int:
         playback = self._playback

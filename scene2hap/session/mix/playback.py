@@ -188,15 +188,16 @@ class Playback:
         return position_s(len(loop.samples), loop.sample_rate_hz, self._position, self._config.sample_rate_hz)
 
     def peaks(self, rows: Sequence[LoopRow]) -> NDArray[np.float32]:
-        """Peaks (n_rows, 2, n_bands), see `prepared_loops.peaks_of`; 0 of loops that are still being prepared."""
+        """Peaks (n_rows, 2, n_bands) of what is played, see `prepared_loops.peaks_of`; 0 of rows without a loop yet."""
         n_bands = self._config.bands.n_bands
         silent = np.zeros((2, n_bands))
-        found = [silent if row in self._coming else self._places[row].peaks for row in rows]
+        found = [self._places[row].peaks if row in self._places else silent for row in rows]
         return np.array(found, dtype=np.float32).reshape(len(rows), 2, n_bands)
 
     def take_prepared(self) -> bool:
         """Add the loops that are now prepared, silent until gains are set again. Returns false if there are none."""
         ready = [row for row, loop in self._coming.items() if loop.done()]
+        self._let_out([self._places.pop(row) for row in ready if row in self._places], self.now)
         for row in ready:
             loop = self._coming.pop(row).result()
             self._let_in(row, loop.bank, loop.peaks, len(ready))
@@ -253,7 +254,7 @@ class Playback:
         return routes
 
     def _route(self, rows: Sequence[LoopRow], mixer: MixerInstance, outputs: Indices, channels: Indices) -> _Route:
-        # Loops that are still being prepared have no place.
+        # Rows whose loops are still being prepared have no place, or that of the row that they replace.
         places = [(i, self._places[row]) for i, row in enumerate(rows) if row in self._places]
         # Mixers of one bank share its slots.
         own = [i for i, place in places if place.bank.slots is mixer.bank.slots]
@@ -261,29 +262,41 @@ class Playback:
         is_alone = len(self._plan.mixers) == 1
         return mixer, None if len(own) == len(rows) else own, slots, outputs.tolist(), None if is_alone else channels
 
-    def change_rows(self, rows: Sequence[LoopRow], at_frame: int) -> None:
+    def change_rows(
+        self, rows: Sequence[LoopRow], at_frame: int, instead: tuple[LoopRow, LoopRow] | None = None
+    ) -> None:
         """Play these rows; fade out all others.
 
         Loops that are not prepared yet are added by `take_prepared`, unless preparing is set to block.
+        Parameters: instead : a new row, and the one that it replaces, whose loop is played until that of the new row is
+        prepared.
         """
+        bands, rate_hz = self._config.bands, self._tactile_rate_hz
+        is_blocking = self._config.prepare == "blocking"
+        new = [row for row in rows if row not in self._places and row not in self._coming]
+        loops = [self._prepared(row) if is_blocking else find(row.loop.tactile, bands, rate_hz) for row in new]
+        if instead is not None:
+            later, earlier = instead
+            if earlier in self._places and (later, None) in zip(new, loops, strict=True):
+                self._places[later] = self._places.pop(earlier)
+                self._routes.clear()
         wanted = set(rows)
-        gone = [self._places.pop(row) for row in [*self._places] if row not in wanted]
+        self._let_out([self._places.pop(row) for row in [*self._places] if row not in wanted], at_frame)
+        self._coming = {row: loop for row, loop in self._coming.items() if row in wanted}
+        for row, loop in zip(new, loops, strict=True):
+            if loop is None:
+                self._coming[row] = order(row.loop.tactile, bands, rate_hz)
+            else:
+                self._let_in(row, loop.bank, loop.peaks, len(new))
+
+    def _let_out(self, gone: Sequence[_Place], at_frame: int) -> None:
+        """Fade out the loops of some slots, and empty those that have faded."""
         for place in gone:
             place.free_at = at_frame + self._fade_frames
             for mixer in self._mixers:
                 if mixer.bank.slots is place.bank.slots:
                     mixer.fade(place.slot, at_frame)
         self._retired = [place for place in (*self._retired, *gone) if not self._is_emptied(place)]
-        self._coming = {row: loop for row, loop in self._coming.items() if row in wanted}
-        new = [row for row in rows if row not in self._places and row not in self._coming]
-        bands, rate_hz = self._config.bands, self._tactile_rate_hz
-        for row in new:
-            is_blocking = self._config.prepare == "blocking"
-            loop = self._prepared(row) if is_blocking else find(row.loop.tactile, bands, rate_hz)
-            if loop is None:
-                self._coming[row] = order(row.loop.tactile, bands, rate_hz)
-            else:
-                self._let_in(row, loop.bank, loop.peaks, len(new))
 
     def _prepared(self, row: LoopRow) -> PreparedLoop:
         return prepare(row.loop.tactile, self._config.bands, self._tactile_rate_hz)

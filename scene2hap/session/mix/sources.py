@@ -173,15 +173,15 @@ class Sources:
         return self._sources.get(object_id)
 
     def go_on(self, source_id: str, before: Source) -> None:
-        """Restore switch, level, state and off-time of a source whose loops were exchanged. A source in its first state
-        takes the new first state."""
+        """Restore switch, level and state of a source whose loops were exchanged. A start or stop that is under way
+        ends with the earlier loop. A source in its first state takes the new first state."""
         source = self._sources[source_id]
         source.is_on, source.level = before.is_on, before.level
         source.has_contact, source.is_new = before.has_contact, before.is_new
         if before.state != next(iter(before.rows)) and before.state in source.rows:
             source.state = before.state
-        inferred = source.inferred.get(source.state)
-        source.is_resting = before.is_resting and inferred is not None and inferred.off_s is not None
+        if source.state == before.state:
+            source.passing = before.passing
         self._list()
 
     def __getitem__(self, source_id: str) -> Source:

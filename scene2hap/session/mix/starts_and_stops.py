@@ -132,8 +132,21 @@ class Switching:
         speed, amplitude = self.running(source_id)
         return SourceProgress(min(1.0, speed), min(1.0, amplitude), source.is_resting, left_s)
 
+    def go_on(self, source_id: str, before: Source, progress: SourceProgress) -> None:
+        """Let a source whose loops were exchanged go on in its start or stop and in its cycle."""
+        self._sources.go_on(source_id, before)
+        source = self._sources[source_id]
+        if not source.is_new:
+            self._resume_turn(source_id, source, self._playback.now, progress)
+
     def _resume(self, source_id: str, source: Source, now: int, progress: SourceProgress) -> None:
         """Let a source go on where that of a saved game was."""
+        self._resume_turn(source_id, source, now, progress)
+        if progress.speed is not None and progress.amplitude is not None:
+            self._resumed[source_id] = (Running(progress.speed, progress.amplitude), source)
+
+    def _resume_turn(self, source_id: str, source: Source, now: int, progress: SourceProgress) -> None:
+        """Let a source go on in its on-time or off-time."""
         source.is_resting = progress.is_resting
         self._begin_turn(source_id, source, now, 0.0)
         if source_id not in self._turns:
@@ -141,8 +154,6 @@ class Switching:
         elif progress.turn_left_s is not None:
             end, _ = self._turns[source_id]
             self._turns[source_id] = (min(end, now + round(progress.turn_left_s * self._rate_hz)), source)
-        if progress.speed is not None and progress.amplitude is not None:
-            self._resumed[source_id] = (Running(progress.speed, progress.amplitude), source)
 
     def _follow_sources(self, now: int) -> None:
         """Update the stored data after sources were added or removed."""

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 import time
 import warnings
+from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 from types import FrameType
+from typing import Any
 
 import numpy as np
 import pytest
@@ -25,6 +28,7 @@ from scene2hap import (
 )
 from scene2hap.errors import BundleError
 from scene2hap.session import bundle_watch
+from scene2hap.session.mix import playback, prepared_loops
 from scenes import RATE, table_with_two_phones
 
 
@@ -62,6 +66,32 @@ def test_use_bundle_replaces_changed_loops_only(bundle: HapticBundle) -> None:
     assert set(session.source_ids) == {source, other}
     assert felt(session, source) == pytest.approx(0.4, rel=0.02)
     assert felt(session, other) < 0.4 * 10 ** (-60 / 20) or not session._sources[other].is_on
+
+
+def test_a_source_is_felt_while_a_worker_prepares_its_new_loop(
+    bundle: HapticBundle, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source = next(iter(bundle.loops))
+    session = HapticSession(bundle)
+    before = felt(session, source)
+    prepared: Future[prepared_loops.PreparedLoop] = Future()
+    monkeypatch.setattr(playback, "order", lambda *_: prepared)
+    touch, edited = Touch("left", source, session.poses[source].position_m), buzz(60.0)
+    for times in (0.5, 1.0):  # a second edit comes before the first is prepared
+        samples = (times * edited.tactile.samples).astype(np.float32)
+        loop = replace(edited, tactile=AudioClip(samples, RATE))
+        session.use_bundle(with_loops(bundle, source, ringing=loop))
+        for _ in range(20):
+            session.update(touches=[touch])
+            assert np.abs(session.render(960)[:, 0]).max() == pytest.approx(before, rel=0.1)
+    rate_hz = session.config.tactile_rate_hz
+    prepared.set_result(prepared_loops.prepare(loop.tactile, session.config.bands, rate_hz))
+    peaks = []
+    for _ in range(20):
+        session.update(touches=[touch])
+        peaks.append(np.abs(session.render(960)[:, 0]).max())
+    assert min(peaks) > 0.2
+    assert peaks[-1] == pytest.approx(0.4, rel=0.02)
 
 
 def test_use_bundle_warns_of_no_added_object(bundle: HapticBundle) -> None:
@@ -174,6 +204,28 @@ def test_a_saved_bundle_and_one_edited_by_hand_are_followed(bundle: HapticBundle
         until(watch.update, watch)
         assert watch.problem == ""
     watch.close()
+
+
+def test_a_folder_that_is_gone_while_it_is_listed_does_not_end_the_watch(
+    bundle: HapticBundle, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As while a bundle is replaced: the parent is listed before, and its folder after."""
+    folder = bundle.save(tmp_path / "b")
+    session, listed, n_gone = HapticSession(folder), os.scandir, 0
+
+    def scandir(path: str) -> Any:
+        nonlocal n_gone
+        if os.path.basename(path) == "sounds":
+            n_gone += 1
+            raise FileNotFoundError(path)
+        return listed(path)
+
+    with BundleWatch(session, folder) as watch:
+        with monkeypatch.context() as patched:
+            patched.setattr(os, "scandir", scandir)
+            until(lambda: n_gone > 2, watch)
+        bundle.override(next(iter(bundle.loops)), gain_db=-6.0).save(folder)
+        until(watch.update, watch)
 
 
 @pytest.mark.parametrize("step", range(20))

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scene2hap import HapticSession, SourceState, Touch
+from scene2hap import HapticBundle, HapticSession, SourceState, Touch
 from scene2hap.errors import ConfigError
 from scenes import table_with_two_phones, tone_loop
 
@@ -305,3 +305,39 @@ def test_use_bundle_leaves_a_source_in_its_off_time(has_cycles: bool) -> None:
     made.use_bundle(replace(bundle, loops=loops, objects={**bundle.objects, "phone": replace(phone, states=states)}))
     level = envelope(made, 0.5)
     assert level.max() == 0.0 if has_cycles else level[-1] > 0.9 * full
+
+
+def with_other_loop(made: HapticSession) -> HapticBundle:
+    """The session's bundle with another loop for the phone."""
+    bundle = made._bundle
+    loops = {**bundle.loops["phone"], "ringing": tone_loop(120)}
+    return replace(bundle, loops={**bundle.loops, "phone": loops})
+
+
+@pytest.mark.parametrize("is_resting", [False, True])
+def test_use_bundle_leaves_a_cycle_where_it_is(is_resting: bool) -> None:
+    made = session({"on_s": 40.0, "off_s": 100.0})
+    envelope(made, 0.2)
+    made.set_source("phone", progress=[None, None, is_resting, 30.0])
+    made.use_bundle(with_other_loop(made))
+    made.update(touches=TOUCH)
+    assert made.source("phone").progress == (None, None, is_resting, 30.0)
+
+
+@pytest.mark.parametrize("on", [False, True])
+def test_use_bundle_lets_a_start_or_stop_go_on(on: bool) -> None:
+    """It ends with the earlier loop, and the next one is of the new bundle."""
+    made = session({"start_up_s": 2.0, "wind_down_s": 2.0, "spins": True})
+    made.set_source("alarm", on=False)
+    steady = float(envelope(made, 0.2)[-1])
+    made.set_source("phone", on=False)
+    if on:
+        envelope(made, 2.5)
+        made.set_source("phone", on=True)
+    before = envelope(made, 0.5)[-1]
+    made.use_bundle(with_other_loop(made))
+    after = envelope(made, 2.5)
+    assert after[0] == pytest.approx(before, abs=0.15 * steady)
+    assert np.abs(np.diff(after)).max() < 0.15 * steady
+    assert after[-1] == pytest.approx(steady, rel=0.05) if on else after[-1] == 0.0
+    assert made.source("phone").frequency_hz == pytest.approx(120.0)
