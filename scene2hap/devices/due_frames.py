@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 
 
-class Pace:
+class FrameClock:
     """Counter of frames at a rate from a start time. After a pause of over `max_lag_s` [s] the excess is dropped.
 
     `n_pauses` is the number of these pauses so far.

@@ -24,7 +24,7 @@ import numpy as np
 
 from scene2hap.common.calls import not_pickled
 from scene2hap.common.checks import represented
-from scene2hap.devices.due_frames import Pace
+from scene2hap.devices.due_frames import FrameClock
 from scene2hap.devices.exclusive_use import claim, give_back
 from scene2hap.devices.protocol import Block, EventCallback, EventKind, Fill, SinkEvent, SinkFormat, SinkStats
 from scene2hap.devices.rate import RateConverter
@@ -126,7 +126,7 @@ class LiveSink:
         self._frames = self._dropped = self._faults = self._connects = 0
         self._last_event: tuple[str, str] | None = None
         self._filter_s = 0.0
-        self._idle = Pace(1)
+        self._idle = FrameClock(1)
 
     def open(self, format: SinkFormat) -> None:
         """Prepare the sink and reset the counters. `start` connects to the device, which may be missing.
@@ -200,7 +200,7 @@ class LiveSink:
 
     def _work(self, format: SinkFormat) -> None:
         pause_s = FIRST_RETRY_S
-        self._idle = Pace(format.sample_rate_hz)
+        self._idle = FrameClock(format.sample_rate_hz)
         self._idle.restart(time.monotonic())
         while not self._stopping.is_set():
             frames = self._frames

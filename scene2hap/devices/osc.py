@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.devices.datagrams import Datagrams
-from scene2hap.devices.due_frames import Pace
+from scene2hap.devices.due_frames import FrameClock
 from scene2hap.devices.link import CarryOn
 from scene2hap.devices.protocol import Block, SinkFormat
 from scene2hap.errors import MissingExtra
@@ -57,7 +57,7 @@ class OscLine:
         self._sent_gains: dict[tuple[str, int], float] = {}
         self._playing: set[str] = set()
         self._repeated_s = 0.0
-        self._pace = Pace(1)
+        self._pace = FrameClock(1)
         self._block_frames = 1
 
     @property
@@ -71,7 +71,7 @@ class OscLine:
         self._playing.clear()
         self._datagrams.connect(encode("/scene2hap/hello", format.sample_rate_hz), carry_on)
         self._block_frames = max(1, round(_BLOCK_S * format.sample_rate_hz))
-        self._pace = Pace(format.sample_rate_hz)
+        self._pace = FrameClock(format.sample_rate_hz)
         self._pace.restart(time.monotonic())
         return format.sample_rate_hz
 

@@ -10,7 +10,7 @@ from typing import Literal
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
 from scene2hap.devices.datagrams import Datagrams
-from scene2hap.devices.due_frames import Pace
+from scene2hap.devices.due_frames import FrameClock
 from scene2hap.devices.framing.frames import (
     MAX_PAYLOAD,
     MOST_CHANNELS,
@@ -94,7 +94,7 @@ class PcmLine:
         self._datagrams = datagrams
         self._samples = format
         self.silent_after_s: float = LATEST_S + self._wish / self._rate_hz
-        self._pace = Pace(self._rate_hz, self.silent_after_s)
+        self._pace = FrameClock(self._rate_hz, self.silent_after_s)
         self._sequence = 0
         self._announcement = b""
         self._announced_s = 0.0

@@ -15,7 +15,7 @@ from scene2hap.session.audibility import SILENT, Audibility, CutoffCost
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.explain import Explainer, Explanation
-from scene2hap.session.fields.keeper import Keeper, keeper_of
+from scene2hap.session.fields.keeper import FieldProvider, keeper_of
 from scene2hap.session.frame import Counts, HapticFrame, SessionStats, Touch
 from scene2hap.session.hand_gains import AllGains, Felt, GainMethod, HandGains, Loudness, PrunedGains, TouchGains
 from scene2hap.session.mix.sources import LoopRow, Sources
@@ -55,7 +55,7 @@ class HandFrames:
         self._pending: list[ContactChange] = []
         self._must_request, self._are_sources_known = False, True
         self._find_reach()
-        self.keeper: Keeper = keeper_of(config, state, self._known_excitations())
+        self.keeper: FieldProvider = keeper_of(config, state, self._known_excitations())
         self._count_unreachable()
 
     def apply(self, change: ContactChange, *, sources_changed: bool = False) -> None:

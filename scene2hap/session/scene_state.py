@@ -16,7 +16,7 @@ from scene2hap.scene.objects import Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import RemovedIds
-from scene2hap.session.impacts.slams import Slam, Way, is_closed, slam_of
+from scene2hap.session.impacts.slams import RelativePoses, Slam, is_closed, slam_of
 from scene2hap.session.network import BoxCentres, Corners, PlatePoses, body_of, own_half_m, own_middle_m, rigid_body_of
 from scene2hap.session.reach import Reach, reach_over
 
@@ -106,7 +106,7 @@ class SceneState:
         """Half the sides of this box [m]."""
         return own_half_m(self.objects[object_id])
 
-    def slam(self, object_id: str, way: Callable[[str], Way]) -> Slam | None:
+    def slam(self, object_id: str, way: Callable[[str], RelativePoses]) -> Slam | None:
         """Return what an object may slam against, see `slam_of`; None also without a hinge.
 
         Parameters: way : returns the way relative to another object.
@@ -117,7 +117,7 @@ class SceneState:
             return None
         return slam_of(item, item.hinge, holder, way(holder.id))
 
-    def is_closed(self, object_id: str, other: str, way: Way) -> bool:
+    def is_closed(self, object_id: str, other: str, way: RelativePoses) -> bool:
         """Whether an object is a drawer, or the like, that another encloses where the scene has it: see `slams`."""
         item, holder, pose = self.objects[object_id], self.objects[other], self.graph.pose
         up_axis = {"y": 1, "z": 2}[self._scene.up_axis]

@@ -33,7 +33,7 @@ _SAME_VERTEX_M = 1.5e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Placed:
+class PlacedMesh:
     """An object's mesh in its own frame, the pose of that frame, a key that copies share, and its materials."""
 
     pose: Pose
@@ -58,7 +58,7 @@ class MeshPool:
         self._stored: set[object] = set()
         self._baked = limits.Budget("triangles to draw", 500_000, 4.0, unit="triangles")
 
-    def place(self, group: Group) -> Placed:
+    def place(self, group: Group) -> PlacedMesh:
         """Return the group's mesh, pose and looks.
 
         Raises: SceneError: a coordinate is too large, or all vertices are in one point; the message names the object.
@@ -88,7 +88,7 @@ class MeshPool:
         which = np.repeat(np.arange(len(pieces)), [len(piece.faces) for piece in pieces])
         names = names_by_area(mesh, which, [piece.material for piece in pieces])
         key = f"{mesh.digest}-{paints}"
-        return Placed(Pose.from_matrix(rigid), mesh, key, self._appearance(pieces, own), names)
+        return PlacedMesh(Pose.from_matrix(rigid), mesh, key, self._appearance(pieces, own), names)
 
     def _bake(self, group: Group, own: NDArray[np.float64]) -> TriMesh:
         pieces = [piece for _, piece in group.parts]

@@ -18,7 +18,7 @@ from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError
 from scene2hap.scene.geometry import joined
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
-from scene2hap.scene.plausibility.usual_sizes import DOOR, Usual, is_floor, usual
+from scene2hap.scene.plausibility.usual_sizes import DOOR, UsualSpan, is_floor, usual
 
 
 class UnitWarning(UserWarning):
@@ -52,7 +52,7 @@ class _Evidence(NamedTuple):
     excess: float
     name: str
     measured_m: float
-    usual: Usual
+    usual: UsualSpan
 
 
 class UnitDoubt(NamedTuple):

@@ -1,4 +1,4 @@
-"""Usual sizes of named objects: height of the top above the floor, or longest edge.
+"""UsualSpan sizes of named objects: height of the top above the floor, or longest edge.
 
 Names are read narrowly: a name that may mean another object (a doormat, a chair leg) has no usual size. The lexicon of
 `llm` has far more nouns, with bounds so wide that miniatures and kits at half scale pass. Finding the unit needs
@@ -12,7 +12,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 
-class Usual(NamedTuple):
+class UsualSpan(NamedTuple):
     """The usual span of a kind of object [m]: of its top above the floor, or of its longest edge."""
 
     kind: str
@@ -81,16 +81,16 @@ _AROUND = (
 
 
 @lru_cache(maxsize=4096)
-def usual(name: str) -> Usual | None:
+def usual(name: str) -> UsualSpan | None:
     """Return the usual size of an object by its name; None if the name does not show it."""
     words = _words(name)
     for pattern, top_m in _TOPS_M:
         if re.fullmatch(f"({pattern})( (left|right|front|back))?", words):
-            return Usual(pattern, top_m, top_m, is_top=True)
+            return UsualSpan(pattern, top_m, top_m, is_top=True)
     bare = _bare(words)
     for pattern, low_m, high_m in _LONGEST_M:
         if re.fullmatch(f"(?:{pattern})s?", bare):
-            return Usual(pattern, low_m, high_m, is_top=False)
+            return UsualSpan(pattern, low_m, high_m, is_top=False)
     return None
 
 

@@ -29,7 +29,7 @@ from scene2hap.propagation.reference import FeltNear
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.fields.prepared import FieldInUse, LastField
-from scene2hap.session.fields.worker import FieldWorker, Prepared, Sign, Situation
+from scene2hap.session.fields.worker import FieldRequest, FieldWorker, PreparedField, WorkerSignal
 from scene2hap.session.frame import SessionStats
 from scene2hap.session.reach import Reach
 from scene2hap.session.scene_state import SceneState
@@ -45,7 +45,7 @@ class FieldWarning(RuntimeWarning):
     """The model could not prepare a field of the present scene."""
 
 
-class Keeper(Protocol):
+class FieldProvider(Protocol):
     """Provides the field of the present scene."""
 
     @property
@@ -125,9 +125,9 @@ class FieldKeeper:
         self._n_prepared = self._n_failed = 0
         self._last_failure, self._latency_s = "", 0.0
         self._failure, self._is_refused = "", False
-        before = self._situation(0, excitations)
-        self._whole = Prepared(NoPropagation().prepare(ContactNetwork({}), excitations, bands), before)
-        self.in_use: Prepared = self._whole
+        before = self._request(0, excitations)
+        self._whole = PreparedField(NoPropagation().prepare(ContactNetwork({}), excitations, bands), before)
+        self.in_use: PreparedField = self._whole
         self._requested = before
         self.request(excitations)
         self.order()
@@ -140,17 +140,17 @@ class FieldKeeper:
     @property
     def is_current(self) -> bool:
         """Whether the field in use was prepared for the newest scene state."""
-        return self.in_use.situation is self._requested
+        return self.in_use.request is self._requested
 
     @property
     def failure(self) -> str:
-        """See `Keeper`."""
+        """See `FieldProvider`."""
         return self._failure if self._is_refused else ""
 
     @property
     def stats(self) -> SessionStats:
-        """See `Keeper`."""
-        outdated = self.in_use.situation.outdated_at_s
+        """See `FieldProvider`."""
+        outdated = self.in_use.request.outdated_at_s
         return SessionStats(
             fields_prepared=self._n_prepared,
             field_age_s=0.0 if outdated is None else time.monotonic() - outdated,
@@ -161,13 +161,13 @@ class FieldKeeper:
 
     def request(self, excitations: Sequence[Excitation]) -> None:
         """Request a field for the present scene. It is prepared at once, or by the worker from the next `order` on."""
-        before, self._requested = self._requested, self._situation(self._requested.number + 1, excitations)
+        before, self._requested = self._requested, self._request(self._requested.number + 1, excitations)
         before.outdated_at_s = self._requested.requested_at_s
         if not self._is_background:
             self._use(self._worker.prepare(self._requested))
 
     def order(self) -> None:
-        """See `Keeper`."""
+        """See `FieldProvider`."""
         if not self._is_background:
             return
         if self._n_ordered != self._requested.number:
@@ -175,11 +175,11 @@ class FieldKeeper:
             self._put(self._requested)
         elif self._must_expect:
             self.in_use.expected.update(object_id for object_id, _ in self._worker.touched)
-            self._put(Sign.TOUCHED)
+            self._put(WorkerSignal.TOUCHED)
         self._must_expect = False
 
     def for_touches(self, source_ids: tuple[str, ...], reach: Reach) -> FieldInUse:
-        """See `Keeper`. It switches to each newer field by itself."""
+        """See `FieldProvider`. It switches to each newer field by itself."""
         if self._for_touches is not None and self._for_touches[1:] == (source_ids, reach):
             return self._for_touches[0]
         keeper = self._weak
@@ -188,7 +188,7 @@ class FieldKeeper:
         return field
 
     def for_points(self, source_ids: tuple[str, ...], reach: Reach, n_points: int) -> FieldInUse:
-        """See `Keeper`."""
+        """See `FieldProvider`."""
         return self._in_use(source_ids, reach, lambda touched: None)
 
     def _in_use(
@@ -196,8 +196,8 @@ class FieldKeeper:
     ) -> FieldInUse:
         now, n_bands, keeper = self._state.graph.pose, self._worker.bands.n_bands, self._weak
 
-        def as_now(one: Prepared) -> LastField:
-            then, situation = one.situation.poses, one.situation
+        def as_now(one: PreparedField) -> LastField:
+            then, request = one.request.poses, one.request
             return LastField(
                 one.field,
                 then,
@@ -205,7 +205,7 @@ class FieldKeeper:
                 source_ids,
                 n_bands,
                 reach,
-                lambda: keeper._follows_poses or situation is keeper._requested,
+                lambda: keeper._follows_poses or request is keeper._requested,
             )
 
         field = FieldInUse(source_ids, as_now, note)
@@ -213,16 +213,16 @@ class FieldKeeper:
         return field
 
     def take(self) -> bool:
-        """See `Keeper`."""
+        """See `FieldProvider`."""
         try:
             answer = self._worker.answers.pop()
         except IndexError:
             return False
-        if isinstance(answer, Prepared):
+        if isinstance(answer, PreparedField):
             self._use(answer)
             return True
-        situation, problem = answer
-        self._n_answered = situation.number
+        request, problem = answer
+        self._n_answered = request.number
         self._note(problem)
         return False
 
@@ -241,24 +241,24 @@ class FieldKeeper:
                 return False
             self._worker.has_answered.wait(end.left_s)
 
-    def _situation(self, number: int, excitations: Sequence[Excitation]) -> Situation:
+    def _request(self, number: int, excitations: Sequence[Excitation]) -> FieldRequest:
         now, state = time.monotonic(), self._state
         source_ids = [item.source_id for item in excitations] if self._skips_unreachable else None
-        return Situation(number, state.network(source_ids), excitations, state.poses, now)
+        return FieldRequest(number, state.network(source_ids), excitations, state.poses, now)
 
-    def _use(self, found: Prepared) -> None:
-        situation, before = found.situation, self.in_use.situation
+    def _use(self, found: PreparedField) -> None:
+        request, before = found.request, self.in_use.request
         if self._is_background:
             self._worker.spent.append(self.in_use)
         self.in_use, self._is_expectant = found, isinstance(found.field, ExpectantField)
         if found.covers is None:
-            self._whole, self._n_answered = found, situation.number
+            self._whole, self._n_answered = found, request.number
         if self._for_touches is not None:
             self._for_touches[0].use(found, self._whole)
         self._n_prepared += 1
         self._is_refused = False
-        if situation is not before:
-            self._latency_s = time.monotonic() - situation.requested_at_s
+        if request is not before:
+            self._latency_s = time.monotonic() - request.requested_at_s
 
     def _note_touched(self, touched: Sequence[TouchedPoint]) -> None:
         self._worker.touched = touched
@@ -276,10 +276,10 @@ class FieldKeeper:
             warn_of(self._failure, FieldWarning)
         self._is_refused = True
 
-    def _put(self, order: Situation | Sign) -> None:
+    def _put(self, order: FieldRequest | WorkerSignal) -> None:
         if self._thread is None or not self._thread.is_alive():
             self._thread = self._worker.start(self.in_use)
-            weakref.finalize(self, self._worker.orders.put, Sign.END)
+            weakref.finalize(self, self._worker.orders.put, WorkerSignal.END)
         self._n_put += 1
         self._worker.orders.put(order)
 
@@ -302,7 +302,7 @@ class LiveKeeper:
 
     @property
     def stats(self) -> SessionStats:
-        """See `Keeper`. A live field follows each request at once."""
+        """See `FieldProvider`. A live field follows the scene at once."""
         return SessionStats(fields_prepared=self._n_requests)
 
     def request(self, excitations: Sequence[Excitation]) -> None:
@@ -325,7 +325,7 @@ class LiveKeeper:
         return self.field
 
     def for_points(self, source_ids: tuple[str, ...], reach: Reach, n_points: int) -> LiveField:
-        """See `Keeper`.
+        """See `FieldProvider`.
 
         For many points the model prepares a field, which stays in use until contacts, sources or objects change.
         """
@@ -348,7 +348,7 @@ class LiveKeeper:
         return True
 
 
-def keeper_of(config: SessionConfig, state: SceneState, excitations: Sequence[Excitation]) -> Keeper:
+def keeper_of(config: SessionConfig, state: SceneState, excitations: Sequence[Excitation]) -> FieldProvider:
     """Return the keeper for the configured model: `LiveKeeper` if the model has a live field."""
     model, bands = config.propagation, config.bands
     if isinstance(model, LiveModel):

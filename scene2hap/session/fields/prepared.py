@@ -16,7 +16,7 @@ from scene2hap.compiled import compiled
 from scene2hap.propagation.live import LiveField, TouchedPoint
 from scene2hap.propagation.protocol import PropagationField, checked_gains
 from scene2hap.scene.pose import Pose
-from scene2hap.session.fields.worker import Prepared
+from scene2hap.session.fields.worker import PreparedField
 from scene2hap.session.reach import Reach
 
 Gains = NDArray[np.float64]
@@ -131,14 +131,14 @@ class FieldInUse:
     def __init__(
         self,
         source_ids: tuple[str, ...],
-        as_now: Callable[[Prepared], LiveField],
+        as_now: Callable[[PreparedField], LiveField],
         note: Callable[[Sequence[TouchedPoint]], None],
     ) -> None:
         self.source_ids = source_ids
         self._as_now, self._note = as_now, note
-        self._prepared: Prepared | None = None
+        self._prepared: PreparedField | None = None
 
-    def use(self, newest: Prepared, whole: Prepared) -> None:
+    def use(self, newest: PreparedField, whole: PreparedField) -> None:
         """Use the newest field, which may not cover all objects, and a field that covers the others."""
         if self._prepared is not whole:
             self._whole, self._prepared = self._as_now(whole), whole

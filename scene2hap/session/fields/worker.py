@@ -36,7 +36,7 @@ AT_REST_S = 0.05
 
 
 @dataclass(eq=False)
-class Situation:
+class FieldRequest:
     """A scene state for which a field is prepared.
 
     Parameters: network : makes the model's input in any thread, for the objects connected to the given objects, or for
@@ -52,7 +52,7 @@ class Situation:
     outdated_at_s: float | None = None
 
 
-class Sign(Enum):
+class WorkerSignal(Enum):
     """Signals to the worker besides scene states."""
 
     TOUCHED = auto()
@@ -60,15 +60,15 @@ class Sign(Enum):
     END = auto()
 
 
-Order = Situation | Sign
+Order = FieldRequest | WorkerSignal
 
 
 @dataclass(frozen=True, eq=False)
-class Prepared:
+class PreparedField:
     """A field, its scene state, the objects that it covers (None for all), and the objects prepared by `expect`."""
 
     field: PropagationField
-    situation: Situation
+    request: FieldRequest
     covers: Collection[str] | None = None
     expected: set[str] = dataclasses.field(default_factory=set)
 
@@ -94,28 +94,30 @@ class FieldWorker:
     model: PropagationModel
     bands: Bands
     orders: SimpleQueue[Order] = dataclasses.field(default_factory=SimpleQueue)
-    answers: deque[Prepared | tuple[Situation, Exception]] = dataclasses.field(default_factory=lambda: deque(maxlen=1))
+    answers: deque[PreparedField | tuple[FieldRequest, Exception]] = dataclasses.field(
+        default_factory=lambda: deque(maxlen=1)
+    )
     has_answered: Event = dataclasses.field(default_factory=Event)
     touched: Sequence[TouchedPoint] = ()
     n_followed: int = 0
     """Number of orders that were carried out, or dropped for a newer one."""
     # Fields that are no longer in use. The worker frees their memory, since that takes time.
-    spent: deque[Prepared] = dataclasses.field(default_factory=lambda: deque(maxlen=4))
+    spent: deque[PreparedField] = dataclasses.field(default_factory=lambda: deque(maxlen=4))
 
-    def prepare(self, situation: Situation, near: Collection[str] = ()) -> Prepared:
+    def prepare(self, request: FieldRequest, near: Collection[str] = ()) -> PreparedField:
         """Prepare a field of the objects connected to the objects `near`; of all objects if none are given."""
-        network, covers = situation.network(near)
-        field = self.model.prepare(network, situation.excitations, self.bands)
-        return Prepared(checked_field(self.model, field, situation.excitations), situation, covers)
+        network, covers = request.network(near)
+        field = self.model.prepare(network, request.excitations, self.bands)
+        return PreparedField(checked_field(self.model, field, request.excitations), request, covers)
 
-    def start(self, newest: Prepared) -> Thread:
-        """Start a thread that carries out orders until `Sign.END`; `newest` is the field that is in use."""
-        return start_worker(partial(self._work, newest), "propagation", partial(self.orders.put, Sign.END))
+    def start(self, newest: PreparedField) -> Thread:
+        """Start a thread that carries out orders until `WorkerSignal.END`; `newest` is the field that is in use."""
+        return start_worker(partial(self._work, newest), "propagation", partial(self.orders.put, WorkerSignal.END))
 
-    def _work(self, newest: Prepared) -> None:
+    def _work(self, newest: PreparedField) -> None:
         is_whole, (order, n_orders) = True, self._newest(self.orders.get())
-        while order is not Sign.END:
-            if isinstance(order, Situation):
+        while order is not WorkerSignal.END:
+            if isinstance(order, FieldRequest):
                 self.spent.clear()
                 found = self._answer(order, {object_id for object_id, _ in self.touched})
                 newest, is_whole = found or newest, found is None or found.covers is None
@@ -126,11 +128,11 @@ class FieldWorker:
             try:
                 order, n_orders = self._newest(self.orders.get(timeout=None if is_whole else AT_REST_S))
             except Empty:
-                newest, is_whole = self._answer(newest.situation, ()) or newest, True
+                newest, is_whole = self._answer(newest.request, ()) or newest, True
                 self.has_answered.set()
                 order, n_orders = self._newest(self.orders.get())
 
-    def _answer(self, order: Situation, near: Collection[str]) -> Prepared | None:
+    def _answer(self, order: FieldRequest, near: Collection[str]) -> PreparedField | None:
         """Prepare and publish a field; see `prepare`. If the model fails, publish the error and return None."""
         try:
             prepared = self.prepare(order, near)
@@ -148,6 +150,6 @@ class FieldWorker:
         with contextlib.suppress(Empty):
             while True:
                 waiting.append(self.orders.get_nowait())
-        if Sign.END in waiting:
-            return Sign.END, len(waiting)
-        return next((one for one in reversed(waiting) if isinstance(one, Situation)), order), len(waiting)
+        if WorkerSignal.END in waiting:
+            return WorkerSignal.END, len(waiting)
+        return next((one for one in reversed(waiting) if isinstance(one, FieldRequest)), order), len(waiting)

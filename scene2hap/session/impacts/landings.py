@@ -36,7 +36,7 @@ from scene2hap.session.impacts.motion_track import (
     MotionTrack,
     in_world,
 )
-from scene2hap.session.impacts.slams import Slam, Way
+from scene2hap.session.impacts.slams import RelativePoses, Slam
 
 LEAST_SPEED_M_S = 0.1
 """A cup put down more slowly is as good as not felt, and trackers shake as fast."""
@@ -106,8 +106,8 @@ class Landings:
         graph: ContactGraph,
         middle_m: Callable[[str], Vector],
         half_m: Callable[[str], Vector],
-        slam: Callable[[str, Callable[[str], Way]], Slam | None],
-        is_closed: Callable[[str, str, Way], bool],
+        slam: Callable[[str, Callable[[str], RelativePoses]], Slam | None],
+        is_closed: Callable[[str, str, RelativePoses], bool],
         period_s: float,
     ) -> None:
         self._graph, self._middle_m, self._half_m = graph, middle_m, half_m
@@ -353,7 +353,7 @@ class Landings:
         )
         return (came_m + turned_m) / n_updates / period_s
 
-    def _way(self, track: MotionTrack, other: str) -> Way:
+    def _way(self, track: MotionTrack, other: str) -> RelativePoses:
         theirs, its = self._tracks.get(other), self._graph.pose(other)
         (before, *_), (last, *_) = track.steps[-2:]
         begin = max(track.since, track.steps[0][0], theirs.steps[0][0] if theirs is not None else 0)

@@ -36,7 +36,7 @@ class Answer(NamedTuple):
     gains: Floats
 
 
-class Ordered(NamedTuple):
+class PreparationRequest(NamedTuple):
     """The touched objects for which a scene is prepared, and the version of its contacts."""
 
     touched: tuple[str, ...]
@@ -56,7 +56,7 @@ class ImpactPreparation:
         self._model, self._state, self._submit = model, state, submit
         self._prepared: tuple[Mapping[str, Body], ImpactScene] | None = None
         self._touched: list[str] = []
-        self._ordered = Ordered((), -1)
+        self._ordered = PreparationRequest((), -1)
         self._job: Future[None] | None = None
         self._expected: Collection[str] = ()
         self._version, self._changed_at_s, self._ordered_at_s = -1, 0.0, 0.0
@@ -128,7 +128,7 @@ class ImpactPreparation:
 
     def _order(self, version: int) -> None:
         touched, bodies = tuple(self._touched), self._state.bodies
-        self._ordered, self._ordered_at_s = Ordered(touched, version), time.monotonic()
+        self._ordered, self._ordered_at_s = PreparationRequest(touched, version), time.monotonic()
         # An object that touches no other of known material is in no network, so the whole scene is prepared for it.
         put_together = self._state.network(touched if all(map(self._state.touches_a_body, touched)) else None)
 

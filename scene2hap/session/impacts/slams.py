@@ -34,7 +34,7 @@ _ENDS = np.array(list(product((0, 1), repeat=3)))
 """The end of a box along each axis at which each of its corners is."""
 
 
-Way = Sequence[tuple[Pose, Pose]]
+RelativePoses = Sequence[tuple[Pose, Pose]]
 """Poses of an object and of another one at the start of the motion, a step ago, and now."""
 
 
@@ -44,7 +44,7 @@ class Slam:
     holder : id of what the hinge holds it on; edge_m : the middle of its far side, in its own frame [m].
     """
 
-    def __init__(self, item: SceneObject, holder: SceneObject, way: Way) -> None:
+    def __init__(self, item: SceneObject, holder: SceneObject, way: RelativePoses) -> None:
         self.holder: str = holder.id
         self._shape_of_holder, self._way = shape_of(holder.geometry.mesh), way
         before, now = _relative(way[1]), _relative(way[2])
@@ -79,7 +79,7 @@ class Slam:
         return on is not None and not _meet(first, on) and any(_meet(one, on) for one in onward)
 
 
-def slam_of(item: SceneObject, hinge: Hinge, holder: SceneObject, way: Way) -> Slam | None:
+def slam_of(item: SceneObject, hinge: Hinge, holder: SceneObject, way: RelativePoses) -> Slam | None:
     """Return what a door or lid on a hinge may slam against; None if the hinge does not hold, or if the holder moves on
     a hinge itself."""
     if holder.hinge is not None and way[0][1] != way[-1][1]:
@@ -89,7 +89,7 @@ def slam_of(item: SceneObject, hinge: Hinge, holder: SceneObject, way: Way) -> S
     return Slam(item, holder, way)
 
 
-def is_closed(item: SceneObject, holder: SceneObject, way: Way, now: tuple[Pose, Pose], up_axis: int) -> bool:
+def is_closed(item: SceneObject, holder: SceneObject, way: RelativePoses, now: tuple[Pose, Pose], up_axis: int) -> bool:
     """Return True if a drawer is in a larger object as it is in the scene, or was within its last step and rebounds.
 
     Parameters: now : the poses after the step in which it stopped or turned, if that is no step of `way`.

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.signal import firwin, kaiserord
 
-from scene2hap.devices.due_frames import Pace
+from scene2hap.devices.due_frames import FrameClock
 from scene2hap.devices.rate import RateConverter
 
 RATES = [(48000, 4000), (48000, 2000), (44100, 4000), (48000, 8000), (8000, 44100), (48000, 3999), (4000, 8000)]
@@ -88,7 +88,7 @@ def test_rate_converter_does_not_drift_over_days() -> None:
 
 
 def test_pace_counts_frames() -> None:
-    pace = Pace(1000, max_lag_s=0.5)
+    pace = FrameClock(1000, max_lag_s=0.5)
     pace.restart(10.0)
     assert pace.due(10.0) == 0
     assert pace.due(10.1001) == 100
@@ -105,7 +105,7 @@ def test_pace_waits_until_frames_are_due(monkeypatch: pytest.MonkeyPatch) -> Non
 
     monkeypatch.setattr(time, "monotonic", lambda: now_s)
     monkeypatch.setattr(time, "sleep", sleep)
-    pace = Pace(1024)
+    pace = FrameClock(1024)
     pace.restart(now_s)
     assert pace.wait(32, 0.0) == 0
     assert pace.wait(32, 1.0) == 32
@@ -113,7 +113,7 @@ def test_pace_waits_until_frames_are_due(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 def test_pace_drops_a_backlog_above_its_limit() -> None:
-    pace = Pace(1000, max_lag_s=0.5)
+    pace = FrameClock(1000, max_lag_s=0.5)
     pace.restart(0.0)
     assert pace.due(3600.0) == 500
     pace.take(500)

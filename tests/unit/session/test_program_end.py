@@ -13,7 +13,7 @@ PROGRAM = """
 import sys, time
 import numpy as np
 from scene2hap import HapticSession, Touch
-from scene2hap.devices.due_frames import Pace
+from scene2hap.devices.due_frames import FrameClock
 from scene2hap.devices.link import LiveSink
 from scenes import table_with_two_phones
 
@@ -21,7 +21,7 @@ class Line:
     underruns, latency_s = 0, None
 
     def connect(self, format, carry_on):
-        self.pace, self.sent = Pace(format.sample_rate_hz), []
+        self.pace, self.sent = FrameClock(format.sample_rate_hz), []
         self.pace.restart(time.monotonic())
         return format.sample_rate_hz
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from scene2hap.haptics import Bands
 from scene2hap.propagation.live import TouchedPoint
 from scene2hap.session.fields.prepared import FieldInUse
-from scene2hap.session.fields.worker import Prepared, Situation
+from scene2hap.session.fields.worker import FieldRequest, PreparedField
 from scene2hap.session.scene_state import ModelInput
 
 HERE = (0.0, 0.0, 0.0)
@@ -31,14 +31,14 @@ class Constant:
         return np.array([np.full((len(SOURCES), 1), self.gain if hand else 0.0) for hand in hands])
 
 
-def prepared(gain: float, covers: Collection[str] | None = None) -> Prepared:
+def prepared(gain: float, covers: Collection[str] | None = None) -> PreparedField:
     def told(near: Collection[str]) -> ModelInput:
         pytest.fail("is prepared already")
 
-    return Prepared(Constant(gain), Situation(0, told, (), {}, 0.0), covers)
+    return PreparedField(Constant(gain), FieldRequest(0, told, (), {}, 0.0), covers)
 
 
-def as_now(one: Prepared) -> Constant:
+def as_now(one: PreparedField) -> Constant:
     assert isinstance(one.field, Constant)
     return one.field
 

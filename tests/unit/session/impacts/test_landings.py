@@ -14,7 +14,7 @@ from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import TriMesh
 from scene2hap.session.impacts.landings import Landing, Landings
-from scene2hap.session.impacts.slams import Way
+from scene2hap.session.impacts.slams import RelativePoses
 
 PERIOD_S = 1 / 90
 Path = Iterator[tuple[float, float, float]]
@@ -41,11 +41,11 @@ def _half(object_id: str) -> tuple[float, float, float]:
     return {"cup": (0.04, 0.06, 0.04), "book": (0.1, 0.015, 0.075)}.get(object_id, (1.0, 1.0, 1.0))
 
 
-def _without_hinge(object_id: str, way: Callable[[str], Way]) -> None:
+def _without_hinge(object_id: str, way: Callable[[str], RelativePoses]) -> None:
     pass
 
 
-def _not_closed(object_id: str, other: str, way: Way) -> bool:
+def _not_closed(object_id: str, other: str, way: RelativePoses) -> bool:
     return False
 
 
