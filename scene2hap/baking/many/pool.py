@@ -92,6 +92,7 @@ class Pool:
     async def run(self, task: Callable[..., Result], *args: Any) -> Result:
         """Run a task and return its result. The task gets the number of its threads as first argument.
 
+        A task in this process cannot be stopped: a cancelled caller gets its result, and is cancelled at its next wait.
         If a worker of our own pool dies, all its tasks are repeated one at a time. This finds the task that kills
         workers.
 
@@ -101,7 +102,7 @@ class Pool:
             return await _awaited(self._given.submit(task, 1, *args))
         if self._own is None:
             async with self._turn:
-                return await asyncio.to_thread(task, 0, *args)
+                return await _finished(asyncio.ensure_future(asyncio.to_thread(task, 0, *args)))
         n_threads = max(1, (os.cpu_count() or 1) // self.n_workers)
         async with self._turn:
             pool = self._own
@@ -147,6 +148,22 @@ class Pool:
         self.n_workers = max(1, sum(client.nthreads().values()))
         executor: Submits = client.get_executor()
         return executor
+
+
+async def _finished(made: asyncio.Future[Result]) -> Result:
+    """Return the result of a task in a thread, also to a caller that is cancelled meanwhile.
+
+    Python waits for the thread at its exit anyway, and what the task wrote would be unknown to the next run.
+    """
+    try:
+        return await asyncio.shield(made)
+    except asyncio.CancelledError:
+        if made.cancelled():
+            raise
+        await asyncio.wait([made])
+        if (caller := asyncio.current_task()) is not None:
+            caller.cancel()
+        return made.result()
 
 
 async def _awaited(future: Future[Result]) -> Result:
