@@ -305,6 +305,32 @@ def test_a_scene_that_is_made_while_the_run_is_cancelled_is_kept_by_the_next_run
     assert not [*tmp_path.glob("*.before*"), *(tmp_path / ".bake-many").glob("*.draft")]
 
 
+def test_a_second_cancellation_does_not_wait_for_the_scene_that_is_being_made(
+    scenes: list[Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun, released = threading.Event(), threading.Event()
+
+    def held(*arguments: Any) -> tasks.Counters:
+        begun.set()
+        assert released.wait(60.0)
+        return tasks.bake_scene(*arguments)
+
+    monkeypatch.setattr("scene2hap.baking.many.run.bake_scene", held)
+
+    async def cancelled() -> None:
+        running = asyncio.ensure_future(abake_many(scenes[:1], tmp_path))
+        await asyncio.to_thread(begun.wait)
+        running.cancel()
+        done, _ = await asyncio.wait([running], timeout=0.1)
+        assert not done
+        running.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await running
+
+    asyncio.run(cancelled())  # which would wait for asyncio's own threads
+    released.set()
+
+
 class Unhurried:
     """The lexicon, with the address of a network model."""
 
