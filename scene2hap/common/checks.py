@@ -25,17 +25,22 @@ if TYPE_CHECKING:
 Kind = TypeVar("Kind")
 
 _SECRET_NAME = re.compile(r"(key|token|secret|password)s?$", re.IGNORECASE)
+_SECRET_PART = re.compile(r"(://)[^/@\s'\"]+(?=@)|(://[^?\s'\"]*\?)[^\s'\"]+|\bsk-[\w-]{16,}")
 
 
 def shown(value: object, name: object = "") -> str:
-    """Format a value for an error message. Settings named key, token, secret or password are masked."""
+    """Format a value for an error message.
+
+    Masked are settings named key, token, secret or password, credentials and queries of addresses, and keys of OpenAI
+    under any name, since a name may have a typing error.
+    """
     if isinstance(name, str) and _SECRET_NAME.search(name):
         return "'***'"
     if isinstance(value, Mapping):
         return _cut("{" + ", ".join(f"{represented(key)}: {shown(item, key)}" for key, item in value.items()) + "}")
     if isinstance(value, list | tuple):
         return _cut("[" + ", ".join(map(shown, value)) + "]")
-    return represented(value)
+    return _SECRET_PART.sub(lambda found: f"{found[1] or found[2] or ''}***", represented(value))
 
 
 _LONGEST_SHOWN = 200

@@ -10,6 +10,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
 import warnings
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -40,6 +41,7 @@ from scene2hap import (
     load_scene,
     rebake,
 )
+from scene2hap.baking.many import tasks
 from scene2hap.baking.many.record import scene_digest
 from scene2hap.baking.many.report import ManyReport
 from scene2hap.baking.many.run import abake_many
@@ -273,6 +275,80 @@ def test_a_cancelled_run_sends_no_question_that_waits_for_another_scene(scenes: 
 
     with pytest.warns(BackendWarning, match="1 question to the model"):
         asyncio.run(cancelled())
+
+
+@pytest.mark.parametrize("is_remote", [False, True])
+def test_a_scene_that_is_made_while_the_run_is_cancelled_is_kept_by_the_next_run(
+    is_remote: bool, scenes: list[Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun, name = threading.Event(), "make_sounds" if is_remote else "bake_scene"
+    work = getattr(tasks, name)
+
+    def noted(*arguments: Any) -> tasks.Counters:
+        begun.set()
+        return work(*arguments)
+
+    monkeypatch.setattr(f"scene2hap.baking.many.run.{name}", noted)
+    config = {"llm": Unhurried() if is_remote else LexiconBackend()}
+
+    async def cancelled() -> None:
+        running = asyncio.ensure_future(abake_many(scenes, tmp_path, config=config))
+        await asyncio.to_thread(begun.wait)
+        running.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await running
+
+    asyncio.run(cancelled())
+    report = bake_many(scenes, tmp_path, config=config)
+    assert (report.count("kept"), report.count("baked")) == (1, len(scenes) - 1)
+    assert [one.warnings for one in report.scenes] == [()] * len(scenes)
+    assert not [*tmp_path.glob("*.before*"), *(tmp_path / ".bake-many").glob("*.draft")]
+
+
+def test_a_second_cancellation_does_not_wait_for_the_scene_that_is_being_made(
+    scenes: list[Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun, released = threading.Event(), threading.Event()
+
+    def held(*arguments: Any) -> tasks.Counters:
+        begun.set()
+        assert released.wait(60.0)
+        return tasks.bake_scene(*arguments)
+
+    monkeypatch.setattr("scene2hap.baking.many.run.bake_scene", held)
+
+    async def cancelled() -> None:
+        running = asyncio.ensure_future(abake_many(scenes[:1], tmp_path))
+        await asyncio.to_thread(begun.wait)
+        running.cancel()
+        done, _ = await asyncio.wait([running], timeout=0.1)
+        assert not done
+        running.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await running
+
+    asyncio.run(cancelled())  # which would wait for asyncio's own threads
+    released.set()
+
+
+class Unhurried:
+    """The lexicon, with the address of a network model."""
+
+    identity: ClassVar = {"model": "held", "base_url": "http://127.0.0.1:1/v1"}
+
+    async def complete(self, request: LLMRequest) -> LLMReply:
+        return await LexiconBackend().complete(request)
+
+
+def test_a_bundle_whose_record_was_lost_is_not_taken_for_an_edited_one(scenes: list[Path], tmp_path: Path) -> None:
+    bake_many(scenes[:1], tmp_path)
+    record = next((tmp_path / ".bake-many").glob("*.json"))
+    record.unlink()  # as if the run was killed before it wrote the record
+    report = bake_many(scenes[:1], tmp_path)
+    assert report.count("baked") == 1
+    assert report.scenes[0].warnings == ()
+    assert not list(tmp_path.glob("*.before*"))
+    assert not list((tmp_path / ".bake-many").glob("*.new"))
 
 
 def test_reading_a_scene_hides_only_the_warnings_that_workers_repeat(

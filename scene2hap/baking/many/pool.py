@@ -8,7 +8,8 @@ import os
 import pickle
 import signal
 from collections.abc import Callable
-from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor
+from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from functools import partial
 from types import TracebackType
 from typing import Any, Protocol, TypeVar
 
@@ -42,7 +43,9 @@ class Pool:
         # One worker for tasks that ran when a worker died, since one death breaks the whole pool.
         self._alone: ProcessPoolExecutor | None = None
         self._alone_turn = asyncio.Lock()
-        self._close: list[Callable[[], Any]] = []
+        # Not asyncio's own threads, for which its loop waits: a second Ctrl-C ends the program at once.
+        self._thread = ThreadPoolExecutor(1, "scene2hap-bake")
+        self._close: list[Callable[[], Any]] = [partial(self._thread.shutdown, wait=False, cancel_futures=True)]
         self._turn = asyncio.Semaphore(1)
         self.n_workers: int = 1
         self._given: Submits | None = None
@@ -92,6 +95,7 @@ class Pool:
     async def run(self, task: Callable[..., Result], *args: Any) -> Result:
         """Run a task and return its result. The task gets the number of its threads as first argument.
 
+        A task in this process cannot be stopped: a cancelled caller gets its result, and is cancelled at its next wait.
         If a worker of our own pool dies, all its tasks are repeated one at a time. This finds the task that kills
         workers.
 
@@ -101,7 +105,7 @@ class Pool:
             return await _awaited(self._given.submit(task, 1, *args))
         if self._own is None:
             async with self._turn:
-                return await asyncio.to_thread(task, 0, *args)
+                return await _finished(asyncio.wrap_future(self._thread.submit(task, 0, *args)))
         n_threads = max(1, (os.cpu_count() or 1) // self.n_workers)
         async with self._turn:
             pool = self._own
@@ -147,6 +151,23 @@ class Pool:
         self.n_workers = max(1, sum(client.nthreads().values()))
         executor: Submits = client.get_executor()
         return executor
+
+
+async def _finished(made: asyncio.Future[Result]) -> Result:
+    """Return the result of a task in a thread, also to a caller that is cancelled meanwhile.
+
+    Otherwise what the task wrote would be unknown to the next run. A second cancellation, as by a second Ctrl-C, ends
+    the wait.
+    """
+    try:
+        return await asyncio.shield(made)
+    except asyncio.CancelledError:
+        if made.cancelled():
+            raise
+        await asyncio.wait([made])
+        if (caller := asyncio.current_task()) is not None:
+            caller.cancel()
+        return made.result()
 
 
 async def _awaited(future: Future[Result]) -> Result:

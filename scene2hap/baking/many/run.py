@@ -236,6 +236,7 @@ class Run:
             made_of, before = await self._state(path)
             stage = before.get("stage")
             if stage == "baked" and (target / "bundle.json").is_file():
+                await asyncio.to_thread(shutil.rmtree, self._draft(path), ignore_errors=True)  # of a killed run
                 counts = {key: before[key] for key in _COUNTS if isinstance(before.get(key), int)}
                 return replace(report, outcome="kept", **counts)
             if is_remote(self.config.llm):
@@ -243,13 +244,14 @@ class Run:
                 if stage != "inferred" or not (draft / "bundle.json").is_file():
                     report = await self._drafted(path, made_of, await self._inferred(path, self.config.llm))
                 made = await self.pool.run(make_sounds, str(draft), str(target), self.for_workers, self._written(path))
-                await asyncio.to_thread(shutil.rmtree, draft, ignore_errors=True)
             else:
                 whole = (str(path), self.options, str(target), self.for_workers, self.user_prompt, self._written(path))
                 made = await self.pool.run(bake_scene, *whole)
             report = _with(report, made)
             counts = {key: getattr(report, key) for key in _COUNTS}
+            # Before anything is awaited: a run that is cancelled ends there, and the bundle is on the disk.
             self._note(path, made_of, stage="baked", bundle=made.digest, **counts)
+            await asyncio.to_thread(shutil.rmtree, self._draft(path), ignore_errors=True)
             return report
         except Exception as error:  # a foreign executor may raise any exception
             return replace(report, error=f"{type(error).__name__}: {error}")

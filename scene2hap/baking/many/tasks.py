@@ -8,6 +8,7 @@ bundle without loops. So an executor transfers no large data, and a later run ca
 from __future__ import annotations
 
 import asyncio
+import shutil
 import time
 import warnings
 from collections.abc import Iterator, Mapping
@@ -18,7 +19,7 @@ from typing import Any
 
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.corrections import bundle_with_locked, overrides_of_scene, readable_bundle
-from scene2hap.baking.many.record import bundle_digest
+from scene2hap.baking.many.record import WORK, bundle_digest
 from scene2hap.baking.scene import bake, bake_inferred
 from scene2hap.baking.sound import N_THREADS
 from scene2hap.bundle import BundleWarning, HapticBundle, read_overrides, step_beside, write_edited
@@ -93,9 +94,19 @@ def make_sounds(n_threads: int, draft: str, target: str, config: BakeConfig, dig
 
 
 def _save(bundle: HapticBundle, target: Path, digest: str) -> None:
-    """Write a bundle. One that was changed since the last bake is kept. Warns: BundleWarning: where it is."""
-    if bundle_digest(target) in ("", digest):
+    """Write a bundle. One that was changed since the last bake is kept. Warns: BundleWarning: where it is.
+
+    A run that was killed before it wrote the record has left a bundle of another digest, which is equal to the new one.
+    """
+    found = bundle_digest(target)
+    if found in ("", digest):
         bundle.save(target)
+        return
+    new = target.parent / WORK / f"{target.name}.new"
+    bundle.save(new)
+    is_equal = bundle_digest(new) == found
+    shutil.rmtree(new, ignore_errors=True)
+    if is_equal:
         return
     before, _ = readable_bundle(target)
     write_edited(bundle, target, before)

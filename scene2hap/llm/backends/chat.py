@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -123,7 +124,9 @@ def _content(message: Mapping[str, Any]) -> str:
         return text
     call = calls[0] if isinstance(calls, list) and calls else None
     function = call.get("function") if isinstance(call, dict) else message.get("function_call")
-    return text_of(function.get("arguments")) if isinstance(function, dict) else ""
+    arguments = function.get("arguments") if isinstance(function, dict) else None
+    # OpenAI sends arguments as text; gateways of models that send an object pass it on.
+    return json.dumps(arguments) if isinstance(arguments, dict) and arguments else text_of(arguments)
 
 
 def require_whole(said: RawReply, about: str) -> None:
@@ -232,6 +235,7 @@ _MOST_TOKENS = 2**53
 
 
 def counts(usage: object) -> dict[str, int]:
-    """Return the valid token counts in a server's usage report."""
+    """Return the valid token counts in a server's usage report. Some servers write whole numbers as 12.0."""
     items = usage.items() if isinstance(usage, dict) else ()
-    return {name: n for name, n in items if isinstance(n, int) and not isinstance(n, bool) and 0 <= n < _MOST_TOKENS}
+    numbers = {name: n for name, n in items if isinstance(n, int | float) and not isinstance(n, bool)}
+    return {name: int(n) for name, n in numbers.items() if 0 <= n < _MOST_TOKENS and n == int(n)}

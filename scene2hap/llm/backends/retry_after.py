@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
+from datetime import UTC
 from email.utils import parsedate_to_datetime
 
 LONGEST_WAIT_S = 120.0
@@ -28,7 +29,10 @@ def stated_wait_s(headers: Mapping[str, str], now_s: float) -> float | None:
     if seconds is not None or retry_after is None:
         return seconds
     try:
-        return max(parsedate_to_datetime(retry_after).timestamp() - now_s, 0.0)
+        date = parsedate_to_datetime(retry_after)
+        if date.tzinfo is None:  # the form of asctime, which is in UTC, too (RFC 9110, section 5.6.7)
+            date = date.replace(tzinfo=UTC)
+        return max(date.timestamp() - now_s, 0.0)
     except (ValueError, OverflowError):
         return None
 

@@ -63,6 +63,8 @@ MINIATURE = 0.5
 are real."""
 _SLAB_SHARE = 0.15
 """Walls, floors, ceilings and roofs are thinner than this share of their length; assumed."""
+_LARGEST_MACHINE_M = 3.0
+"""Largest size of a machine of known mass whose size the table does not bound; assumed."""
 
 _FLAT_SHARE, _SMALLEST_GROUND_M = 0.01, 3.0
 """The ground is flat and low within this share of its length, and wider than this [m]; assumed."""
@@ -132,8 +134,9 @@ def mounted_on(reading: NameReading, size_m: Sequence[float]) -> tuple[NameReadi
 
 def _is_block(row: ObjectRow, size_m: Sequence[float]) -> bool:
     """Return True if an object has the size of a machine that drives nobody, and is too thick for a wall."""
-    is_machine = row.vibrates and row.role != "vehicle" and row.max_size_m is not None
-    return is_machine and max(size_m) <= (row.max_size_m or 0.0) and min(size_m) > _SLAB_SHARE * max(size_m)
+    is_machine = row.vibrates and row.role != "vehicle"
+    largest_m = row.max_size_m or _LARGEST_MACHINE_M
+    return is_machine and max(size_m) <= largest_m and min(size_m) > _SLAB_SHARE * max(size_m)
 
 
 def ground_plane(reading: NameReading, whole_m: Sequence[float], height_m: float | None) -> NameReading | None:

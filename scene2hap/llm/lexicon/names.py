@@ -9,13 +9,15 @@
 4. Asset kits also write the object first. A two-word noun of the table is found in that order too (tableCoffee,
    wheelchair_electric), but a machine comes before its parts and before what it works with: a printer_label is no label
    printer. A container precedes its content (crate_tomatoes), a noun its material (tableGlass), a wall the opening in
-   it (wall_doorway), and a piece of furniture the number of its parts (sofa_2_seats). Links of robots are called by
-   their joints, limbs or makes (shoulder_pan_link, wrist_roll, upper_arm_link, iiwa_link_4), which are no objects. Only
-   the base of a robot is the robot: robot0:base_link and panda_link0, but robot0:elbow_link, finger_base_link and
-   finger_link_0 are parts of one, which do not vibrate by themselves.
+   it (wall_doorway), a piece of furniture the number of its parts (sofa_2_seats), and any object a word that a number
+   is written onto (ladder_6step). "Machine" after a machine and "bath" after a noun are not the object. Links of robots
+   are called by their joints, limbs or makes (shoulder_pan_link, wrist_roll, upper_arm_link, iiwa_link_4), which are no
+   objects. Only the base of a robot is the robot: robot0:base_link and panda_link0, but robot0:elbow_link,
+   finger_base_link and finger_link_0 are parts of one, which do not vibrate by themselves.
 5. The room, control or picture of a machine is no machine (engine_room, crane_control, fan_art).
 6. The size of a metric thread says that the object belongs to a bolt: "washer_M8" is no washing machine.
-7. A name that no rule can read stays unknown. Only plurals and one typing error in a long word are corrected.
+7. A name that no rule can read stays unknown. Corrected are plurals, one typing error in a long word or beside the
+   other word of a noun ("coffe_machine"), and missing vowels ("prntr") if only one word has the consonants.
 """
 
 from __future__ import annotations
@@ -37,6 +39,7 @@ _UNKNOWN = 0.1
 
 _LONGEST_NOUN = 4  # words
 
+_ANIMAL = "soft tissue"  # the material of animals in the table
 _HOLDS = {"container": ("vessel", "content"), "vessel": ("content",)}
 # 3ds Max gives its primitives such names; "Box_01" is a box.
 _PRIMITIVE = re.compile(r"box\d+", re.IGNORECASE)
@@ -87,8 +90,8 @@ def read_name(name: str) -> NameReading:
     unknown = NameReading(name, tuple(tokens), None, _UNKNOWN, unread=unread, material=_material_in(tokens))
     if _PRIMITIVE.fullmatch(name.strip()):
         return unknown
-    counted, adjectives = word_split.counted_words(name), word_split.counting_adjectives(name)
-    nouns = _without_robot(tokens, _nouns(tokens, counted | adjectives))
+    counted, attached = word_split.counted_words(name), word_split.words_with_number(name)
+    nouns = _without_robot(tokens, _nouns(tokens, counted | attached))
     clause, remark = _before_preposition(tokens, nouns), _before_remark(name, tokens, nouns)
     said = tokens[remark:]
     clause = min(clause, remark)
@@ -97,7 +100,7 @@ def read_name(name: str) -> NameReading:
         robot, trust = _robot_of_link(name, tokens), round(trust * _UNREAD_BEFORE, 3)
         link = " ".join(tokens)
         return unknown if robot is None else replace(unknown, row=robot, confidence=trust, head=link, unread=())
-    head = _head(tokens, nouns, counted, adjectives)
+    head = _head(tokens, nouns, counted, attached)
     head = (
         _of_a_kind(tokens, head, clause) or _kind_after(tokens[:clause], head) or _of_a_bolt(name, tokens, head) or head
     )
@@ -113,6 +116,7 @@ def read_name(name: str) -> NameReading:
     in_nouns = {i for noun in (*nouns, head) for i in range(noun.start, noun.end)}
     behind = tuple(tokens[i] for i in range(head.end, clause) if i not in in_nouns and not _is_beside(tokens[i]))
     before = tuple(word for word in tokens[: head.start] if word in unread)
+    toy = words.TOY_WORDS | words.STUFFED if head.row.material == _ANIMAL else words.TOY_WORDS
     trust *= (_UNREAD_BEFORE if before else 1.0) * (_UNREAD_AFTER if behind else 1.0)
     rest = [*tokens[: head.start], *tokens[head.end : clause], *said]
     return NameReading(
@@ -123,7 +127,7 @@ def read_name(name: str) -> NameReading:
         head=" ".join(tokens[head.start : head.end]),
         unread=before + behind,
         material=_material_in(rest),
-        toy=any(word in words.TOY_WORDS for word in (*tokens[: head.start], *said)),
+        toy=not toy.isdisjoint((*tokens[: head.start], *said)),
         whole=_whole(tokens, head, nouns),
     )
 
@@ -257,10 +261,11 @@ def _of_a_bolt(name: str, tokens: Sequence[str], head: _Noun) -> _Noun | None:
     return noun and _Noun(noun.row, head.start, head.end, head.plural)
 
 
-def _head(tokens: Sequence[str], nouns: Sequence[_Noun], counted: frozenset[str], adjectives: frozenset[str]) -> _Noun:
-    """Return the noun that names the object: the last, but for leftovers, materials, content, openings, counted parts.
+def _head(tokens: Sequence[str], nouns: Sequence[_Noun], counted: frozenset[str], attached: frozenset[str]) -> _Noun:
+    """Return the noun that names the object: the last, but for leftovers, materials, rooms, content, openings, counts.
 
-    The number of a machine is a serial: "truck_2_wheels" are the wheels of one truck, but a "fan_3blade" is a fan.
+    The number of a machine is a serial: "truck_2_wheels" are the wheels of one truck. A number that is written onto a
+    noun counts it: a "fan_3blade" is a fan, a "ladder_6step" a ladder, a "truck_2wheels" a truck.
     """
     left = list(nouns)
     while len(left) > 1:
@@ -271,9 +276,11 @@ def _head(tokens: Sequence[str], nouns: Sequence[_Noun], counted: frozenset[str]
         # A vessel counts as content of a container only in the plural: "crate_bottles", but "box_plate".
         is_content = held and (last.plural or last.row.role == "content")
         is_opening = previous.row.noun in words.SHELLS and last.row.noun in words.OPENINGS
-        counts = tokens[last.start] in adjectives or (tokens[last.start] in counted and not previous.row.vibrates)
-        is_counted = counts and _is_countable(last.row)
-        if word not in words.LEFTOVER_NOUNS and not (is_material or is_content or is_opening or is_counted):
+        first = tokens[last.start]
+        is_counted = first in attached or (first in counted and not previous.row.vibrates and _is_countable(last.row))
+        is_general = word in words.GENERAL_NOUNS and previous.row.vibrates
+        is_beside = word in words.LEFTOVER_NOUNS or word in words.ROOM_NOUNS or is_material or is_general
+        if not (is_beside or is_content or is_opening or is_counted):
             break
         left.pop()
     return left[-1]

@@ -1,4 +1,4 @@
-"""Everyday words of other languages, translated into the English words of the table of objects.
+"""Everyday words of other languages, and usual abbreviations of English ones, as English words of the table of objects.
 
 Words have the form that `word_split.split_words` returns: lower case, without accents. A word with an English meaning
 in the lexicon is looked up here only if an object of that meaning cannot be so large (`name_checks.meant_abroad`).
@@ -6,8 +6,9 @@ in the lexicon is looked up here only if an object of that meaning cannot be so 
 
 from __future__ import annotations
 
+import re
 import unicodedata
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 
 from scene2hap.llm.lexicon.table import rows_of
@@ -17,6 +18,7 @@ _ENGLISH = frozenset({"four", "lit", "cubo", "piso", "bank", "trap", "kop", "wan
 
 _COMPOUNDING = ("de", "nl")
 _SHORTEST_PIECE = 3  # letters
+_SHORTEST_KIND = 2  # letters; "oil" in "olkanister"
 _SHORTEST_HEAD = 5  # letters; shorter words of German end hundreds of English words ("furni-tur")
 _LINKS = ("", "n", "s", "en", "es", "e")
 
@@ -30,6 +32,7 @@ _PLURALS: dict[str, dict[str, tuple[str, ...]]] = {
     "pl": {"y": ("a", ""), "i": ("a", ""), "a": ("o",), "e": ("",)},
     "ru": {"ы": ("а", ""), "и": ("а", "ь", ""), "а": ("о",)},
     "ja": {},
+    "en": {},
 }
 """Endings of plurals by language, and the endings of their singulars. An umlaut is an accent, which is removed."""
 
@@ -45,7 +48,7 @@ def english() -> dict[str, tuple[str, ...]]:
     """Return the English words by foreign word. If two languages share a word, the first one in the file is used."""
     found: dict[str, tuple[str, ...]] = {}
     for language, word, meaning in _rows():
-        for spelled in (word, _folded(language, word)):
+        for spelled in _spellings(language, word):
             if spelled not in _ENGLISH:
                 found.setdefault(spelled, meaning)
     return found
@@ -66,29 +69,33 @@ def plural(word: str) -> tuple[str, ...]:
     return next((meaning for language in _PLURALS if (meaning := _plural_in(language, word))), ())
 
 
-def compound(word: str) -> tuple[str, ...]:
+def compound(word: str, is_english: Callable[[str], bool]) -> tuple[str, ...]:
     """Return the English words of a German or Dutch compound ("gartenstuhl"), () if its last piece is unknown.
 
     The last piece is the object, as in English; it may be a plural. A linking "n", "s", "en" or "es" may follow the
-    first piece. An unknown first piece is returned as it is, since it is only the kind of the object ("puppenhaus").
+    first piece, and its last "e" may be missing ("duschwand"). It may be an English word ("laserdrucker"). An unknown
+    first piece is returned as it is, since it is only the kind of the object ("puppenhaus").
     """
-    return next((found for language in _COMPOUNDING if (found := _compound_in(language, word))), ())
+    return next((found for language in _COMPOUNDING if (found := _compound_in(language, word, is_english))), ())
 
 
-def _compound_in(language: str, word: str) -> tuple[str, ...]:
+def _compound_in(language: str, word: str, is_english: Callable[[str], bool]) -> tuple[str, ...]:
     kind_of: tuple[str, ...] = ()
     pieces, word = _dictionaries()[language], _folded(language, word)
-    for end in range(_SHORTEST_PIECE, len(word) - _SHORTEST_PIECE + 1):
+    for end in range(_SHORTEST_KIND, len(word) - _SHORTEST_PIECE + 1):
         head, tail = word[:end], word[end:]
         singular = pieces.get(tail)
         last = singular or _plural_in(language, tail)
         if not last:
             continue
-        stems = (head.removesuffix(link) for link in _LINKS if head.endswith(link))
+        stems = [head + "e", *(head.removesuffix(link) for link in _LINKS if head.endswith(link))]
         first = next((pieces[stem] for stem in stems if stem in pieces), None)
+        if first is None and len(head) > _SHORTEST_PIECE and tail not in _ENGLISH and is_english(head):
+            first = (head,)
         if first is not None:
             return (*first, *last)
-        if not kind_of and len(tail) >= _SHORTEST_HEAD + (0 if singular else 2) and tail not in _ENGLISH:
+        is_long = len(head) >= _SHORTEST_PIECE and len(tail) >= _SHORTEST_HEAD + (0 if singular else 2)
+        if not kind_of and is_long and tail not in _ENGLISH:
             kind_of = (head, *last)
     return kind_of
 
@@ -116,8 +123,19 @@ def _dictionaries() -> dict[str, dict[str, tuple[str, ...]]]:
     return found
 
 
+def _spellings(language: str, word: str) -> tuple[str, ...]:
+    """Return the ways to write a word: umlauts as one letter or two, long vowels of Japanese as one or two.
+
+    The "n" of Japanese before a "p" or "b" is also written "m" ("senpuuki", "sempuki").
+    """
+    folded = _folded(language, word)
+    return word, folded, re.sub("n(?=[pb])", "m", folded) if language == "ja" else folded
+
+
 def _folded(language: str, word: str) -> str:
-    """Return a German word with its umlauts as plain letters, whether they were written "ü" or "ue"."""
+    """Return a German word with its umlauts as plain letters, a Japanese one in Latin letters with short vowels."""
+    if language == "ja":
+        return re.sub(r"o[ou]|([aiue])\1", lambda long: long[0][0], word)
     return word.replace("ae", "a").replace("oe", "o").replace("ue", "u") if language == "de" else word
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterator, Sequence
-from functools import cache, lru_cache
+from functools import cache, lru_cache, partial
 
 from scene2hap.llm.lexicon import translations, words
 from scene2hap.llm.lexicon.table import ObjectRow, table
@@ -16,7 +16,7 @@ _RUN_TOGETHER = 0.9
 _SLIP = 0.6
 
 _COUNTED = re.compile(r"(?<!\d)(?:[2-9]|1\d)[\W_]*([^\W\d_]+)")
-_ADJECTIVE = re.compile(r"(?<![^\W_])(?:[2-9]|1\d)([^\W\d_]+)")
+_ATTACHED = re.compile(r"(?<![^\W_])(?:[2-9]|[1-9]\d+)([^\W\d_]+)")
 
 _HASH = re.compile(
     r"(?<![^\W_])(?:[0-9a-f]{8}(?:[-_][0-9a-f]{4}){3}[-_][0-9a-f]{12}|(?=\d*[a-f]+\d+[a-f])[0-9a-f]{8,})(?![^\W_])",
@@ -31,6 +31,8 @@ _SHORTEST_PIECE = 3  # letters; shorter pieces occur inside almost any word
 _SHORT_PIECES = frozenset({"tv", "pc"})
 _LONGEST_RUN = 40  # letters; longer words do not occur
 _SHORTEST_SLIP = 8  # letters; in shorter words one changed letter often gives another word (certain, curtain)
+_SHORTEST_WITH_VOWELS = 6  # letters; of words that miss some of their vowels
+_SHORTEST_SLIP_BESIDE = 5  # letters; beside the other word of a noun
 
 
 def read_words(name: str) -> tuple[list[str], float]:
@@ -38,10 +40,19 @@ def read_words(name: str) -> tuple[list[str], float]:
     trust = 1.0
     tokens: list[str] = []
     for word in _in_english_order(_joined(_without_shades(split_words(name)))):
-        pieces, factor = _known_pieces(word)
+        pieces, factor = (("automatic",), 1.0) if _is_automatic(word, tokens) else _known_pieces(word)
         tokens.extend(pieces)
         trust *= factor
+    for i, meant in _meant_beside(tokens):
+        tokens[i] = meant
+        trust *= _SLIP
     return tokens, trust
+
+
+def _is_automatic(word: str, before: Sequence[str]) -> bool:
+    """Return True if "auto" says how an object works, as in "door_auto"; alone, or after "toy", it is a foreign car."""
+    last = before[-1] if before else ""
+    return word == "auto" and last not in words.TOY_WORDS and any(form in nouns() for form in words.forms(last))
 
 
 def counted_words(name: str) -> frozenset[str]:
@@ -52,9 +63,9 @@ def counted_words(name: str) -> frozenset[str]:
     return frozenset(word for word in _first_words(_COUNTED, name) if len(tuple(words.forms(word))) > 1)
 
 
-def counting_adjectives(name: str) -> frozenset[str]:
-    """Return the singulars that a number is written onto: "door" in "fridge_2door", but not in "Fridge2Door"."""
-    return frozenset(word for word in _first_words(_ADJECTIVE, name) if len(tuple(words.forms(word))) == 1)
+def words_with_number(name: str) -> frozenset[str]:
+    """Return the words that a number is written onto: "door" in "fridge_2door", but not in "Fridge2Door"."""
+    return frozenset(_first_words(_ATTACHED, name))
 
 
 def _first_words(pattern: re.Pattern[str], name: str) -> Iterator[str]:
@@ -152,10 +163,10 @@ def _known_pieces(word: str) -> tuple[tuple[str, ...], float]:
     meaning = translations.plural(word)
     if meaning:
         return meaning, _TRANSLATED
-    meaning = translations.compound(word)
+    meaning = translations.compound(word, is_known)
     if meaning:
         return meaning, _TRANSLATED * _RUN_TOGETHER
-    meant = _meant(word)
+    meant = _with_vowels(word) or _meant(word)
     return ((meant,), _SLIP) if meant else ((word,), 1.0)
 
 
@@ -194,10 +205,49 @@ def _meant(word: str) -> str | None:
     return near.pop() if len(near) == 1 else None
 
 
-def _is_slip(written: str, known: str) -> bool:
-    """Return True if one letter is missing, surplus, swapped with its neighbour, or another vowel.
+def _with_vowels(word: str) -> str | None:
+    """Return the only word of a noun that `word` is without some or all vowels ("tbl", "prnter"); None if not unique.
 
-    A replaced consonant does not count, since it usually makes a different word (painter, printer).
+    A word that keeps some vowels is a long one, since short ones differ by as little ("stars", "stairs").
+    """
+    consonants = _consonants(word)
+    if len(consonants) < _SHORTEST_PIECE or (consonants != word and len(word) < _SHORTEST_WITH_VOWELS):
+        return None
+    near = [known for known in _by_consonants().get(consonants, ()) if known != word and _is_within(word, known)]
+    return near[0] if len(near) == 1 else None
+
+
+def _consonants(word: str) -> str:
+    return word[:1] + re.sub("[aeiou]", "", word[1:])
+
+
+def _is_within(short: str, word: str) -> bool:
+    """Return True if `short` is a word without some of its letters."""
+    letters = iter(word)
+    return all(letter in letters for letter in short)
+
+
+def _meant_beside(tokens: Sequence[str]) -> Iterator[tuple[int, str]]:
+    """Yield each unknown word that is one typing error away from the other word of a noun: "coffe" before "machine".
+
+    Beside the other word a shorter word and a replaced consonant count, too: a "washing mashine" is a machine.
+    """
+    for i, word in enumerate(tokens):
+        if len(word) < _SHORTEST_SLIP_BESIDE or is_known(word):
+            continue
+        is_slip = partial(_is_slip, word, consonants=True)
+        near = {
+            *(first for first, last in _pairs() if tokens[i + 1 : i + 2] == [last] and is_slip(first)),
+            *(last for first, last in _pairs() if i and tokens[i - 1] == first and is_slip(last)),
+        }
+        if len(near) == 1:
+            yield i, near.pop()
+
+
+def _is_slip(written: str, known: str, *, consonants: bool = False) -> bool:
+    """Return True if one letter is missing, surplus, swapped with its neighbour, or replaced by another vowel.
+
+    A replaced consonant counts only with `consonants`, since it usually makes a different word (painter, printer).
     """
     if abs(len(written) - len(known)) > 1 or written[0] != known[0]:
         return False
@@ -207,8 +257,8 @@ def _is_slip(written: str, known: str) -> bool:
     a, b = written[start:], known[start:]
     missing, surplus = a == b[1:], a[1:] == b
     swapped = a[:2] == b[1::-1] and a[2:] == b[2:]
-    vowel = a[1:] == b[1:] and a[0] in "aeiouy" and b[0] in "aeiouy"
-    return missing or surplus or swapped or vowel
+    other = a[1:] == b[1:] and (consonants or (a[0] in "aeiouy" and b[0] in "aeiouy"))
+    return missing or surplus or swapped or other
 
 
 @cache
@@ -216,6 +266,12 @@ def nouns() -> dict[str, tuple[ObjectRow, tuple[str, ...]]]:
     """Return the row and the words of every noun and synonym, by its words written together."""
     spelled = ((name.replace("-", " ").split(), row) for row in table() for name in (row.noun, *row.synonyms))
     return {"".join(parts): (row, tuple(parts)) for parts, row in spelled}
+
+
+@cache
+def _pairs() -> tuple[tuple[str, str], ...]:
+    """Return the words of every noun of two words."""
+    return tuple((spelled[0], spelled[1]) for _, spelled in nouns().values() if len(spelled) == 2)
 
 
 @cache
@@ -228,6 +284,17 @@ def _vocabulary() -> frozenset[str]:
 @cache
 def _whole_words() -> frozenset[str]:
     return (frozenset({*nouns(), *words.MATERIAL_WORDS}) | side_words()) - words.PREPOSITIONS
+
+
+@cache
+def _by_consonants() -> dict[str, set[str]]:
+    """Return the words of nouns by their first letter and the consonants after it, doubled ones also as one."""
+    found: dict[str, set[str]] = {}
+    for word in {part for _, spelled in nouns().values() for part in spelled}:
+        consonants = _consonants(word)
+        for short in {consonants, re.sub(r"(.)\1", r"\1", consonants).replace("ck", "k")}:
+            found.setdefault(short, set()).add(word)
+    return found
 
 
 @cache

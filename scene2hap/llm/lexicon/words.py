@@ -64,6 +64,8 @@ SOUNDING = {
     "shaking": ("shaking", 0.4),
     "trembling": ("shaking", 0.3),
     "vibrating": ("shaking", 0.4),
+    "motorized": ("moving", 0.2),
+    "motorised": ("moving", 0.2),
 }
 """Words that say what an object does that is silent by itself, as in "purring cat" -> its state, and the intensity of
 that (assumed). Not those that also name a kind of object, as rolling pins, rocking chairs and running shoes do."""
@@ -104,6 +106,9 @@ PLACE_WORDS = {
 }
 """Words that name a place, in names of objects and scenes."""
 
+STUFFED = frozenset({"stuffed", "plush", "cuddly"})
+"""Words that say of an animal that it is a toy. A "stuffed pepper" is food."""
+
 TOY_WORDS = frozenset({"toy", "miniature", "replica", "fake"})
 """Words before a noun that mark an unreal object. "mini" is not among them: a mini fridge is a fridge."""
 
@@ -132,6 +137,8 @@ MATERIAL_WORDS = {
     "wool": "fabric",
     "denim": "fabric",
     "foam": "foam",
+    "plush": "fabric",
+    "stuffed": "fabric",
 }
 """Adjectives of material -> a name in the material table. Colours that are metals (gold, silver) are left out."""
 
@@ -157,12 +164,16 @@ MATERIAL_NOUNS = frozenset({"glass", "paper", "brick", "stone"})
 """Nouns that name a material after another noun (tableGlass), not another object."""
 
 GENERAL_NOUNS = frozenset({"machine"})
-"""Nouns whose neighbour names the kind of the object in either order: coffee machine, machine_coffee."""
+"""Nouns whose neighbour names the kind of the object in either order: coffee machine, machine_coffee. After a machine
+they say nothing more: a "bread slicer machine" is a bread slicer."""
 
 LEFTOVER_NOUNS = _set("mat trash orange cream mobile house backsplash splashback wc goal")
 """Nouns that are no objects after another noun. Exporters write "Burner_mat_0", designers "ham_trash" and
 "sofa_orange". A "counter_backsplash" is a counter with a backsplash, a "mirror_wc" hangs in one, and a "bin_goal" is
 where a task of a robot ends."""
+
+ROOM_NOUNS = _set("bath")
+"""Nouns that name the room after another noun: a "scale_bath" is no bathtub."""
 
 NO_MACHINES = _set("""
     room house bay station depot pit shed area zone spot spawn volume trigger waypoint
@@ -216,7 +227,7 @@ OPENINGS = frozenset({"window", "door", "doorway", "arch", "gate", "window frame
 
 PREPOSITIONS = _set("""
     of with on in for at by from under near without beside behind inside over against
-    mit ohne auf met voor avec sans pour con sin para senza per
+    mit ohne auf unter neben hinter ueber zwischen am im met voor avec sans pour con sin para senza per
 """)
 """The noun before one of these is the object: a bottle of wine, a table with a vase, ein Stuhl mit Lehne."""
 

@@ -26,7 +26,7 @@ from scene2hap.errors import ConfigError, reason_of
 from scene2hap.llm.prompts.quoting import IS_DATA, as_data
 from scene2hap.llm.protocol import COMPONENTS, Component
 
-VERSION = "6"
+VERSION = "7"
 
 _CHAIN = "It is one of these objects, which hinges join, directly or by others, by authored name"
 

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from llm_asking import ask, failed, openai
-from llm_server import GOOD, Scripted, refused, said
+from llm_server import GOOD, Scripted, refused, said, serving
 from openai_schema import openai_serving
 from scene2hap import (
     RepairBackend,
@@ -53,9 +53,10 @@ _CALL = {"name": "scene_analyzer", "arguments": _TEXT}
     [
         {"content": [{"type": "text", "text": _TEXT[:9]}, {"type": "text", "text": _TEXT[9:]}]},
         {"content": None, "tool_calls": [{"id": "1", "type": "function", "function": _CALL}]},
+        {"content": None, "tool_calls": [{"function": {**_CALL, "arguments": GOOD["scene_analyzer"]}}]},
         {"content": "", "function_call": _CALL},
     ],
-    ids=["parts", "tool", "function"],
+    ids=["parts", "tool", "object of a tool", "function"],
 )
 def test_content_of_services_that_only_resemble_openai_is_read(message: dict[str, Any]) -> None:
     body = {"model": "m", "choices": [{"index": 0, "finish_reason": "stop", "message": message}]}
@@ -70,7 +71,10 @@ def test_a_tool_beside_a_refusal_is_no_answer() -> None:
         ask(openai(server))
 
 
-@pytest.mark.parametrize("call", [None, 7, [], [None], [{"function": 7}], [{"function": {"arguments": 7}}]])
+@pytest.mark.parametrize(
+    "call",
+    [None, 7, [], [None], [{"function": 7}], [{"function": {"arguments": 7}}], [{"function": {"arguments": {}}}]],
+)
 def test_a_tool_without_arguments_is_no_content(call: object) -> None:
     body = {"choices": [{"index": 0, "message": {"content": None, "tool_calls": call}}]}
     with openai_serving(Scripted(body)) as server, pytest.raises(BadAnswer, match="without content"):
@@ -119,3 +123,13 @@ def test_thoughts_that_only_the_total_counts_are_billed() -> None:
     reply.body["usage"] = {"prompt_tokens": 100, "completion_tokens": 20, "total_tokens": 620}
     with openai_serving(reply) as server:
         assert ask(openai(server)).usage["completion_tokens"] == 520
+
+
+@pytest.mark.parametrize(
+    ("number", "counted"), [(100.0, 100), (1e300, None), (0.5, None), (True, None), ("100", None), (-1.0, None)]
+)
+def test_whole_numbers_of_tokens_count_however_they_are_written(number: object, counted: int | None) -> None:
+    reply = said()
+    reply.body["usage"] = {"prompt_tokens": number, "completion_tokens": 20}
+    with serving(reply) as server:
+        assert ask(openai(server)).usage.get("prompt_tokens") == counted

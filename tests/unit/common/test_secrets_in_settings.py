@@ -19,10 +19,13 @@ KEY = "sk-0123456789abcdef0123456789abcdef"
         {"api_key": KEY},
         {"llm": {"kind": "retry", "inner": {"kind": "openai", "api_key": KEY, "modle": "gpt-4o"}}},
         {"concurrency": {"token": KEY}},
+        {"llm": {"kind": "openai", "api_kye": KEY}},
+        {"llm": {"kind": "openai", "base_url": f"https://me:{KEY[3:]}@example.org/v1"}},
+        {"llm": {"kind": "openai", "base_url": f"https://example.org/v1?{KEY[3:]}"}},
     ],
 )
 def test_no_error_shows_a_key(settings: dict[str, object]) -> None:
     with pytest.raises(ConfigError) as caught:
         BakeConfig.parse(settings)
-    assert KEY not in "".join(traceback.format_exception(caught.value))
-    assert KEY not in repr(caught.value.__cause__)
+    assert KEY[3:] not in "".join(traceback.format_exception(caught.value))
+    assert KEY[3:] not in repr(caught.value.__cause__)

@@ -23,6 +23,7 @@ def reply(status: int = 429, text: str = "", **headers: str) -> WebReply:
         ({"retry_after_ms": "1500", "retry_after": "7"}, 1.5),
         ({"retry_after": "Wed, 21 Oct 2015 07:28:30 GMT"}, 30.0),
         ({"retry_after": "Wed, 21 Oct 2015 07:27:00 GMT"}, 0.0),
+        ({"retry_after": "Wed Oct 21 07:28:30 2015"}, 30.0),
         ({"retry_after": "soon"}, None),
         ({"retry_after": "-3"}, None),
         ({"retry_after": "nan"}, None),

@@ -104,6 +104,8 @@ def test_a_wall_or_ceiling_too_short_to_be_one_is_the_place_of_the_object(
     [
         ("hvac_unit_roof", (2.0, 1.5, 0.5), "air conditioner"),
         ("air_conditioner_wall", (1.1, 0.3, 0.25), "air conditioner"),
+        ("drillPress_floor", (1.6, 0.6, 0.45), "drill press"),
+        ("drillPress_floor", (4.0, 3.0, 0.8), "floor"),
         ("air_conditioner_wall", (2.5, 2.4, 0.2), "wall"),
         ("pump_floor", (2.0, 2.0, 0.05), "floor"),
         ("pump_room_wall", (0.5, 0.5, 0.3), "wall"),

@@ -32,6 +32,39 @@ NAMES = {
     "A1BED2C3-0AC1-41D4-A716-446655440000": None,
     "bed_12ab34cd": "bed",
     "SM_Facade01_Door": "door",
+    # abbreviations, missing vowels, and typing errors beside the other word of a noun
+    "hosp_bed_elec_03": "electric bed",
+    "pallet_jack_elec": "electric pallet jack",
+    "vending_mach_snack": "vending machine",
+    "tbl_01": "table",
+    "ktchn_drwr": "drawer",
+    "prnter": "printer",
+    "stars": None,
+    "clk": "clock",
+    "coffe_machine": "coffee machine",
+    "WashingMashine": "washing machine",
+    # a number that is written onto a noun counts it
+    "ladder_alu_6step": "ladder",
+    "snow_blower_2stage": "snow blower",
+    "KeyBoard_mech_87keys": "keyboard",
+    # the room, or the word "machine", after a noun; "auto" after a noun is automatic, alone a foreign car
+    "extractor_fan_bath": "extractor fan",
+    "bread_slicer_machine": "bread slicer",
+    "sliding_doors_auto": "automatic door",
+    "Auto_rot": "car",
+    "Spielzeug_Auto": "car",
+    # German compounds whose first piece lost its "e" or is English, and a preposition
+    "Duschwand": "wall",
+    "Bandsaege_alt": "band saw",
+    "Oelkanister_5L": "canister",
+    "Zahnbuerste_elektrisch": "electric toothbrush",
+    "Rechner_unterTisch": "computer",
+    # Japanese in Latin letters, with long vowels or without
+    "senpuuki": "fan",
+    "sempuki": "fan",
+    "sentaku_ki_01": "washing machine",
+    "kuruma_isu": "wheelchair",
+    "denki_haburashi": "electric toothbrush",
     # links of robots, and of furniture with joints
     "shoulder_pan_link": "robot part",
     "link_head_pan": "robot part",
@@ -424,6 +457,14 @@ def test_toys_and_parts_are_distinguished_from_the_whole_object() -> None:
     assert whole is not None
     assert whole.noun == "oven"
     assert read_name("glass_door").whole is None
+
+
+@pytest.mark.parametrize(
+    ("name", "toy"), [("stuffed_elephant", True), ("plush_rabbit", True), ("stuffed_pepper", False)]
+)
+def test_a_stuffed_animal_is_a_toy(name: str, toy: bool) -> None:
+    reading = read_name(name)
+    assert (reading.toy, reading.material) == (toy, "fabric")
 
 
 def test_names_are_split_at_capitals_signs_and_digits() -> None:

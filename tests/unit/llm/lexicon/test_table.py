@@ -8,7 +8,7 @@ import pytest
 
 from scene2hap import materials
 from scene2hap.errors import UnknownMaterial
-from scene2hap.llm.lexicon import similar_materials, table as lexicon_table, words
+from scene2hap.llm.lexicon import similar_materials, table as lexicon_table, translations, word_split, words
 from scene2hap.llm.lexicon.names import read_name
 from scene2hap.llm.lexicon.table import PLACES, ObjectRow, table
 
@@ -212,3 +212,8 @@ def test_things_without_a_moving_part_are_silent(name: str) -> None:
 def test_a_stirrer_is_weaker_than_a_centrifuge() -> None:
     (stirrer,), (centrifuge,) = ([row for row in table() if row.noun == n] for n in ("magnetic stirrer", "centrifuge"))
     assert stirrer.states[0].intensity < 0.5 * centrifuge.states[0].intensity
+
+
+def test_every_translation_is_made_of_words_of_the_lexicon() -> None:
+    meanings = translations.english().items()
+    assert {word: meaning for word, meaning in meanings if not all(map(word_split.is_known, meaning))} == {}

@@ -8,7 +8,7 @@ import pytest
 from scene2hap.errors import ConfigError
 from scene2hap.llm.prompts import VERSION, Prompts, placeholders
 from scene2hap.llm.prompts.quoting import IS_DATA
-from scene2hap.llm.protocol import COMPONENTS
+from scene2hap.llm.protocol import COMPONENTS, Component
 from scene2hap.scene.shapes import SurfaceFlag
 
 
@@ -71,3 +71,8 @@ def test_thickness_of_hollow_objects_and_bounds_are_stated() -> None:
     assert "below 0.5" in templates["material_estimator"]
     for flag in get_args(SurfaceFlag):
         assert f'"{flag}"' in templates["object_analyzer"]
+
+
+@pytest.mark.parametrize("component", ["scene_analyzer", "object_analyzer", "vibration_describer"])
+def test_prompts_ask_for_english_words_by_which_sounds_are_found(component: Component) -> None:
+    assert "English word" in Prompts.load().templates[component]
