@@ -48,8 +48,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     bundle = HapticBundle.load(arguments.bundle)
     config = session_config(arguments.settings, bundle, prepare="blocking")
     wav = WavSink(arguments.output) if arguments.output else None
-    actuator = SinkOutput(wav or SINKS.build(given_spec("--sink", arguments.sink)))
-    with HapticSession(bundle, config=config, hands=(HAND,), sink=actuator.sink, user=arguments.profile) as session:
+    output = SinkOutput(wav or SINKS.build(given_spec("--sink", arguments.sink)))
+    with HapticSession(bundle, config=config, hands=(HAND,), sink=output.sink, user=arguments.profile) as session:
         silence(session, [], [arguments.id])
         session.set_source(arguments.id, state=arguments.state, mute=False)
         touch = Touch(HAND, arguments.id, _middle(session.snapshot.object(arguments.id)))
@@ -61,11 +61,11 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
                 for start in np.arange(0.0, seconds, _AT_ONCE_S):
                     wav.pull_s(min(_AT_ONCE_S, seconds - start))
         else:
-            _play(session, touch, actuator, seconds)
-    if not actuator.has_played:
-        raise DeviceError(f"nothing was played: {actuator.problem or 'the actuator did not start.'}")
-    if actuator.problem:
-        console.warn(actuator.problem)
+            _play(session, touch, output, seconds)
+    if not output.has_played:
+        raise DeviceError(f"nothing was played: {output.problem or 'the actuator did not start.'}")
+    if output.problem:
+        console.warn(output.problem)
     if arguments.output:
         console.say(f"wrote {arguments.output}")
     return {"source": arguments.id, "state": arguments.state, "wav": arguments.output}
@@ -78,11 +78,11 @@ def _why_silent(haptics: ObjectHaptics, name: str | None) -> str:
     return "its level is too low to be felt"
 
 
-def _play(session: HapticSession, touch: Touch, actuator: SinkOutput, seconds: float) -> None:
+def _play(session: HapticSession, touch: Touch, output: SinkOutput, seconds: float) -> None:
     end_s = time.monotonic() + seconds
     while time.monotonic() < end_s:
         session.update(touches=[touch])
-        actuator.take(session.config.sample_rate_hz)
+        output.take(session.config.sample_rate_hz)
         time.sleep(UPDATE_S)
 
 

@@ -55,12 +55,12 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     bundle = HapticBundle.load(arguments.bundle)
     config = session_config(arguments.settings, bundle)
     sink = SINKS.build(given_spec("--sink", arguments.sink))
-    actuator = SinkOutput(sink)
+    output = SinkOutput(sink)
     width, height = shutil.get_terminal_size()
     # Besides the plan, the screen has a line for each source, one for the hand, one for the actuator, and a free one.
     player = Player(bundle, n_columns=max(_LEAST, width - 1), n_rows=max(_LEAST, height - len(bundle.loops) - 3))
     with (
-        HapticSession(bundle, config=config, hands=(HAND,), sink=actuator.sink, user=arguments.profile) as session,
+        HapticSession(bundle, config=config, hands=(HAND,), sink=output.sink, user=arguments.profile) as session,
         BundleWatch(session, arguments.bundle) as watch,
         keys() as pressed,
         Live(refresh_per_second=20, screen=True) as screen,
@@ -70,12 +70,12 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             watch.update()
             session.set_user(gain_db=player.gain_db)
             frame = session.update(touches=player.touches())
-            actuator.take(config.sample_rate_hz)
-            screen.update(player.view(frame, actuator.problem, watch.problem))
+            output.take(config.sample_rate_hz)
+            screen.update(player.view(frame, output.problem, watch.problem))
             time.sleep(UPDATE_S)
-    if not actuator.has_played:
-        console.warn(f"nothing was played: {actuator.problem or 'the actuator did not start'}")
-    return {"bundle": arguments.bundle, "ended_on": player.on, "played": actuator.has_played}
+    if not output.has_played:
+        console.warn(f"nothing was played: {output.problem or 'the actuator did not start'}")
+    return {"bundle": arguments.bundle, "ended_on": player.on, "played": output.has_played}
 
 
 def silence(session: HapticSession, muted: Sequence[str], solo: Sequence[str]) -> None:

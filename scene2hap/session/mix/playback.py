@@ -197,11 +197,13 @@ class Playback:
     def take_prepared(self) -> bool:
         """Add the loops that are now prepared, silent until gains are set again. Returns false if there are none."""
         ready = [row for row, loop in self._coming.items() if loop.done()]
+        if not ready:
+            return False
         self._let_out([self._places.pop(row) for row in ready if row in self._places], self.now)
         for row in ready:
             loop = self._coming.pop(row).result()
             self._let_in(row, loop.bank, loop.peaks, len(ready))
-        return bool(ready)
+        return True
 
     def wait(self, end: Deadline) -> bool:
         """Wait for loops that are being prepared; false after the deadline."""
@@ -290,7 +292,7 @@ class Playback:
                 self._let_in(row, loop.bank, loop.peaks, len(new))
 
     def _let_out(self, gone: Sequence[_Place], at_frame: int) -> None:
-        """Fade out the loops of some slots, and empty those that have faded."""
+        """Fade out the loops of some slots. Slots whose loops have faded out become free."""
         for place in gone:
             place.free_at = at_frame + self._fade_frames
             for mixer in self._mixers:
