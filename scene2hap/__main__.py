@@ -24,7 +24,7 @@ def main() -> int:
         on_interrupt = signal.getsignal(signal.SIGINT)
         (on_interrupt if callable(on_interrupt) else signal.default_int_handler)(number, frame)
 
-    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN and hasattr(signal, "pthread_sigmask"):
+    if sys.platform != "win32" and signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         # A shell lets its background processes ignore Ctrl-C. It stays without effect there, but has a handler.
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -18,6 +18,7 @@ import hashlib
 import os
 import re
 import shutil
+import sys
 import time
 import uuid
 from collections.abc import Callable, Iterator
@@ -32,10 +33,8 @@ from scene2hap.common.file_stamp import Stamp, file_stamp
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import BundleChanged, BundleError, BundleIncomplete, reason_of, unwritable
 
-try:
+if sys.platform != "win32":
     import fcntl
-except ImportError:  # Windows, where a folder cannot be locked
-    fcntl = None  # type: ignore[assignment]  # a module elsewhere
 
 ABANDONED_S = 86400.0
 """Age after which a draft counts as abandoned if folders cannot be locked [s]; assumed: a save takes seconds."""
@@ -256,12 +255,12 @@ def _lock(folder: Path, held: ExitStack, *, wait: bool = False) -> bool | None:
     Returns False if another process has the lock, or the folder is gone; None if the system has no locks for folders.
     """
     try:
-        if fcntl is None:
-            return None if os.path.lexists(folder) else False
-        descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-        held.callback(os.close, descriptor)
-        fcntl.flock(descriptor, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
-        return os.path.samestat(os.fstat(descriptor), os.stat(folder))
+        if sys.platform != "win32":
+            descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+            held.callback(os.close, descriptor)
+            fcntl.flock(descriptor, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
+            return os.path.samestat(os.fstat(descriptor), os.stat(folder))
+        return None if os.path.lexists(folder) else False
     except (BlockingIOError, FileNotFoundError, NotADirectoryError):
         return False
     except OSError:  # a file system without locks, or a folder that cannot be read

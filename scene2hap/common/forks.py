@@ -20,6 +20,7 @@ def renew_in_child(renew: Callable[[], object]) -> None:
 def lock_of_process() -> Lock:
     """Return a lock that is open in a forked child. It is never freed, so it is for the state of modules."""
     lock = Lock()
-    # The standard library uses this method for its own locks. It is not in the stubs of `Lock`.
-    renew_in_child(lock._at_fork_reinit)  # type: ignore[attr-defined]
+    # The standard library uses this method for its own locks. Locks of Windows, which has no fork, are without it.
+    if hasattr(lock, "_at_fork_reinit"):
+        renew_in_child(lock._at_fork_reinit)
     return lock

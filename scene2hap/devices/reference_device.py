@@ -14,6 +14,7 @@ import contextlib
 import os
 import select
 import signal
+import sys
 import threading
 import time
 from collections import deque
@@ -200,16 +201,22 @@ class Wire(Protocol):
 
 
 class PseudoTerminal:
-    """The device's end of a pseudo-terminal; the host opens `name`."""
+    """The device's end of a pseudo-terminal; the host opens `name`. Raises: DeviceError: Windows has none."""
+
+    _master: int
+    _slave: int
+    name: str
 
     def __init__(self) -> None:
+        if sys.platform == "win32":
+            raise DeviceError("Windows has no pseudo-terminals; give one port of a com0com pair.")
         import pty
         import tty
 
         self._master, self._slave = pty.openpty()
         tty.setraw(self._slave)
         os.set_blocking(self._master, False)
-        self.name: str = os.ttyname(self._slave)
+        self.name = os.ttyname(self._slave)
 
     def read(self, timeout_s: float) -> bytes:
         """Return the bytes that have arrived; wait at most `timeout_s` for a first byte."""
@@ -276,8 +283,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _wire(port: str | None, baud_rate: int) -> Wire:
     if port is None:
-        if os.name == "nt":
-            raise DeviceError("Windows has no pseudo-terminals; give one port of a com0com pair.")
         terminal = PseudoTerminal()
         print(terminal.name, flush=True)
         return terminal

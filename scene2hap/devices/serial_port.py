@@ -47,8 +47,9 @@ class SerialPort:
         except self._lost as cause:
             raise _open_error(name, baud_rate, cause) from cause
         # The 16 ms timer of FTDI chips would delay every credit. Other chips have no such timer, and raise.
-        with contextlib.suppress(NotImplementedError, AttributeError, *self._lost):
-            self._port.set_low_latency_mode(True)
+        if sys.platform != "win32":  # there the timer is a setting of the driver
+            with contextlib.suppress(NotImplementedError, AttributeError, *self._lost):
+                self._port.set_low_latency_mode(True)
 
     def read(self, timeout_s: float) -> bytes:
         """Return the bytes that have arrived; wait at most `timeout_s` for a first byte. Raises: DeviceLost."""

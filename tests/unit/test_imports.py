@@ -1,6 +1,7 @@
 """Modules that imports load, in a new process."""
 
 import ast
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -51,6 +52,33 @@ def test_the_command_line_starts_without_the_packages_of_scipy() -> None:
     """They take as long as all other imports together. `import scipy` loads each where a command first uses it."""
     loaded = modules_after(EVERY_COMMAND)
     assert not loaded & {f"scipy.{name}" for name in ("fft", "linalg", "optimize", "signal", "sparse", "stats")}
+
+
+WITHOUT_FORK = """
+import os, threading
+from importlib import import_module
+from pkgutil import walk_packages
+for name in ("fork", "register_at_fork"):
+    delattr(os, name)
+class Lock:
+    def __init__(self): self._lock = allocate()
+    def acquire(self, *how, **named): return self._lock.acquire(*how, **named)
+    def release(self): self._lock.release()
+    def locked(self): return self._lock.locked()
+    __enter__ = acquire
+    def __exit__(self, *_): self.release()
+allocate, threading.Lock = threading.Lock, Lock
+import scene2hap
+for one in walk_packages(scene2hap.__path__, "scene2hap."):
+    if "__pyinstaller" not in one.name and "__main__" not in one.name:
+        import_module(one.name)
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="each test of this suite shows it here")
+def test_modules_import_without_fork() -> None:
+    """Windows has no fork, and its locks have no method for one."""
+    assert "scene2hap.bridge.server" in modules_after(WITHOUT_FORK)
 
 
 def test_every_public_name_is_there() -> None:

@@ -178,7 +178,7 @@ def _read(path: Path) -> list[_Entry]:
 
 
 def _entries(path: Path, content: bytes) -> Iterator[_Entry]:
-    for number, line in enumerate(content.split(b"\n"), start=1):
+    for number, line in enumerate(content.splitlines(), start=1):
         if not line.strip():
             continue
         try:

@@ -11,6 +11,7 @@ import os
 import re
 import signal
 import subprocess
+import sys
 import time
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -131,7 +132,7 @@ def _written(folder: Path) -> tuple[int, int]:
 
 def _end(process: subprocess.Popen[bytes]) -> None:
     """End the program and all processes of its group, also those that it left behind."""
-    if os.name == "posix":
+    if sys.platform != "win32":
         with contextlib.suppress(ProcessLookupError, PermissionError):  # it has ended already
             os.killpg(process.pid, signal.SIGKILL)
     elif process.poll() is None:
@@ -140,7 +141,7 @@ def _end(process: subprocess.Popen[bytes]) -> None:
 
 
 def _died(status: int) -> str:
-    if status < 0:
+    if sys.platform != "win32" and status < 0:
         hint = " (out of memory?)" if -status == signal.SIGKILL else ""
         return f"was ended by signal {-status}{hint}"
     return f"ended with status {status}"
