@@ -65,11 +65,11 @@ class Fields:
         place = f"{self.file}: {self._at(name)}"
         return checks.number(place, value, unit, at_least=at_least, at_most=at_most, error=ClipError)
 
-    def text(self, name: str, default: str = "") -> str:
-        """Return the text in a field, or the default. Raises: ClipError: it is something else."""
+    def text(self, name: str) -> str:
+        """Return the text in a field, "" if it is missing. Raises: ClipError: it is something else."""
         value = self._document.get(name)
         if value is None:
-            return default
+            return ""
         if not isinstance(value, str):
             raise self.error(name, f"is {checks.represented(value)}; it must be a text")
         return value

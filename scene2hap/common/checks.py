@@ -296,20 +296,22 @@ def texts(name: str, value: object, *, error: type[Scene2HapError]) -> tuple[str
     return tuple(found)
 
 
-def names(name: str, value: object, *, error: type[Scene2HapError] = ConfigError) -> tuple[str, ...]:
-    """Return one or more distinct names from a sequence. Raises: `error`: any other value, including one string."""
+def names(name: str, value: object) -> tuple[str, ...]:
+    """Return one or more distinct names from a sequence. Raises: ConfigError: any other value, including one string."""
     if isinstance(value, str):
-        raise error(f"{name} is {shown(value)}; it must be a sequence of names, as [{shown(value)}].")
+        raise ConfigError(f"{name} is {shown(value)}; it must be a sequence of names, as [{shown(value)}].")
     if isinstance(value, set | frozenset):
-        raise error(
+        raise ConfigError(
             f"{name} is a set, which has no order; it must be a sequence of names, as {sorted(map(str, value))}."
         )
     found = tuple(value) if isinstance(value, Iterable) else ()
     twice = next((x for i, x in enumerate(found) if isinstance(x, str) and x in found[:i]), None)
     if twice is not None:
-        raise error(f"{name} is {shown(found)}, with {shown(twice)} twice; it must be at least one name, each once.")
+        raise ConfigError(
+            f"{name} is {shown(found)}, with {shown(twice)} twice; it must be at least one name, each once."
+        )
     if not found or not all(isinstance(x, str) and x.strip() for x in found) or len(set(found)) < len(found):
-        raise error(f"{name} is {shown(value)}; it must be at least one name, each once.")
+        raise ConfigError(f"{name} is {shown(value)}; it must be at least one name, each once.")
     return found
 
 

@@ -94,7 +94,6 @@ def _wire(folder: Path) -> Path:
 
 def _heard(folder: Path) -> object:
     """Give the bytes to a device, and to a host that waits for its greeting and then for its credits."""
-    from scene2hap.devices.framing import vhp
     from scene2hap.devices.framing.frames import FrameParser, FrameType, from_datagram, samples
     from scene2hap.devices.framing.link_messages import DeviceFormat
     from scene2hap.devices.protocol import SinkFormat
@@ -110,7 +109,6 @@ def _heard(folder: Path) -> object:
         found += [samples(frame)] if frame.type is FrameType.PCM else [DeviceFormat.from_frame(frame)]
     if (one := from_datagram(datagram)) and one.type is FrameType.PCM:
         found.append(samples(one))
-    found += [vhp.from_packet(wire[:132].ljust(132, b"\0")), vhp.from_wireless(wire[:100])]
 
     class Port:
         def __init__(self) -> None:

@@ -31,7 +31,6 @@ class BatchStatus:
 
     id: str
     status: str
-    input_file: str = ""
     output_file: str = ""
     error_file: str = ""
     completed: int = 0
@@ -131,7 +130,6 @@ def _status(body: Mapping[str, Any]) -> BatchStatus:
     return BatchStatus(
         batch,
         status,
-        chat.text_of(body.get("input_file_id")),
         chat.text_of(body.get("output_file_id")),
         chat.text_of(body.get("error_file_id")),
         counts.get("completed", 0),
