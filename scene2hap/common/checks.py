@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 Kind = TypeVar("Kind")
 
+MASK = "******"
+"""Text in place of a key."""
 _SECRET_NAME = re.compile(r"(key|token|secret|password)s?$", re.IGNORECASE)
 _SECRET_PART = re.compile(r"(://)[^/@\s'\"]+(?=@)|(://[^?\s'\"]*\?)[^\s'\"]+|\bsk-[\w-]{16,}")
 
@@ -35,12 +37,12 @@ def shown(value: object, name: object = "") -> str:
     under any name, since a name may have a typing error.
     """
     if isinstance(name, str) and _SECRET_NAME.search(name):
-        return "'***'"
+        return repr(MASK)
     if isinstance(value, Mapping):
         return _cut("{" + ", ".join(f"{represented(key)}: {shown(item, key)}" for key, item in value.items()) + "}")
     if isinstance(value, list | tuple):
         return _cut("[" + ", ".join(map(shown, value)) + "]")
-    return _SECRET_PART.sub(lambda found: f"{found[1] or found[2] or ''}***", represented(value))
+    return _SECRET_PART.sub(lambda found: f"{found[1] or found[2] or ''}{MASK}", represented(value))
 
 
 _LONGEST_SHOWN = 200

@@ -24,7 +24,8 @@ from scene2hap import (
 )
 from scene2hap.audio.sources.freesound import Freesound
 from scene2hap.audio.sources.text_to_audio import TextToAudio
-from scene2hap.common.secret import MASK, Secret
+from scene2hap.common.checks import MASK
+from scene2hap.common.secret import Secret
 from scene2hap.errors import CallError, ConfigError, Scene2HapError
 
 KEY = "sk-0123456789abcdef"

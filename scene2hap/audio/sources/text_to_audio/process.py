@@ -18,7 +18,6 @@ from pathlib import Path
 
 from scene2hap.audio.sources.disk_cache import plain_line
 from scene2hap.common.key_search import masked
-from scene2hap.common.secret import MASK
 from scene2hap.errors import BackendUnavailable
 
 MAX_FILES = 1000
@@ -53,7 +52,7 @@ def scrubbed(text: str, variables: Mapping[str, str]) -> str:
     """Return a text in which the keys among the program's variables are masked."""
     for name, value in variables.items():
         if _SECRET_NAME.search(name) and len(value) >= _SHORTEST_SCRUBBED:
-            text = masked(text, value, MASK)
+            text = masked(text, value)
     return text
 
 
