@@ -41,7 +41,7 @@ add("bridge messages", _requests, _parsed, names_file=False, opens_files=False)
 
 
 def _frame(folder: Path) -> Path:
-    from scene2hap.bridge.frames import encode_frame, encode_picture
+    from bridge_frames import encode_frame, encode_picture
 
     poses = np.array([[0.1, 0.725, 0.4, 0, 0, 0, 1]], np.float32)
     touches = [(0, 0, (0.2, 0.72, 0.4)), (1, 2, (0.1, 0.73, 0.4))]
