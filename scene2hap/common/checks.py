@@ -26,17 +26,18 @@ Kind = TypeVar("Kind")
 
 MASK = "******"
 """Text in place of a key."""
-_SECRET_NAME = re.compile(r"(key|token|secret|password)s?$", re.IGNORECASE)
+SECRET_NAME = re.compile(r"(key|token|secret|password|credential)s?$", re.IGNORECASE)
+"""Names of settings and environment variables whose values may be keys."""
 _SECRET_PART = re.compile(r"(://)[^/@\s'\"]+(?=@)|(://[^?\s'\"]*\?)[^\s'\"]+|\bsk-[\w-]{16,}")
 
 
 def shown(value: object, name: object = "") -> str:
     """Format a value for an error message.
 
-    Masked are settings named key, token, secret or password, credentials and queries of addresses, and keys of OpenAI
+    Masked are settings named as in `SECRET_NAME`, credentials and queries of addresses, and keys of OpenAI
     under any name, since a name may have a typing error.
     """
-    if isinstance(name, str) and _SECRET_NAME.search(name):
+    if isinstance(name, str) and SECRET_NAME.search(name):
         return repr(MASK)
     if isinstance(value, Mapping):
         return _cut("{" + ", ".join(f"{represented(key)}: {shown(item, key)}" for key, item in value.items()) + "}")

@@ -56,7 +56,7 @@ class BatchService:
         """Upload a file of requests. Returns its id."""
         fields = {"purpose": "batch"}
         reply = await self._patiently(lambda: self._endpoint.upload("files", name, content, fields))
-        return _id(reply, "file")
+        return _file_id(reply)
 
     async def create(self, input_file: str) -> BatchStatus:
         """Begin a batch. It is never retried automatically, since a second batch would cost money."""
@@ -111,10 +111,10 @@ def _successful(reply: WebReply) -> WebReply:
     return reply
 
 
-def _id(reply: WebReply, what: str) -> str:
+def _file_id(reply: WebReply) -> str:
     found = chat.text_of(chat.json_object(reply).get("id"))
     if not found:
-        raise BadAnswer(f"{reply.url} answered without the id of a {what}. Does this server have batches?", reply.text)
+        raise BadAnswer(f"{reply.url} answered without the id of a file. Does this server have batches?", reply.text)
     return found
 
 
