@@ -13,8 +13,9 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from percepts import FAR_DB, Difference, Percept, distinctness, percept_of
+
 from scene2hap.audio.actuators import actuator_profile
-from scene2hap.audio.distinctness import FAR_DB, Difference, Percept, distinctness, percept_of
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.baking import bake
 from scene2hap.bundle import HapticBundle, Override

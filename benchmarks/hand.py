@@ -24,7 +24,6 @@ from scene2hap import Bands, Contact, ContactNetwork, Excitation, ModalPlate, Pl
 from scene2hap.demo import kitchen_path
 from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.coupled.hand import HANDS
-from scene2hap.propagation.infinite_plate import point_mobility_s_kg
 
 PLATES = {
     "steel, 0.8 mm": (0.5, 0.3, 0.0008, "steel"),
@@ -66,7 +65,8 @@ def changes() -> None:
         for hand in HANDS:
             change = levels_db(hand, network, points) - free
             cells.append(f"{np.sqrt(np.mean(change**2)):.2f} / {np.abs(change).max():.1f}")
-        print(f"| {name} | {1 / point_mobility_s_kg(plate):.0f} | {' | '.join(cells)} |", flush=True)
+        impedance = 8 * np.sqrt(plate.bending_stiffness_nm * plate.material.density_kg_m3 * plate.thickness_m)
+        print(f"| {name} | {impedance:.0f} | {' | '.join(cells)} |", flush=True)
 
 
 def costs() -> None:

@@ -2,7 +2,7 @@
 
 python benchmarks/kinds.py [--set home|flat|workshop|compressors] [--seeds 3] [--first 0] [--takes 4] [--tactile auto]
 
-1. The project's own (`scene2hap.audio.distinctness`): just noticeable differences in frequency, rhythm and level.
+1. The project's own (`percepts`): just noticeable differences in frequency, rhythm and level.
 2. An independent one: the spectral part of ST-SIM (Hassen and Steinbach 2019) as `vibromaf` computes it. It needs
    `pip install vibromaf`; otherwise this part is left out. Two loops are compared in blocks of 64 ms by the components
    felt in both, at the lag of largest similarity, since machines do not start together.
@@ -27,6 +27,7 @@ from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
+from percepts import distinctness, percept_of
 from scipy.signal import resample
 
 from scene2hap import (
@@ -41,7 +42,6 @@ from scene2hap import (
     bake as bake_scene,
 )
 from scene2hap.audio.anchor import anchor_of
-from scene2hap.audio.distinctness import distinctness, percept_of
 from scene2hap.audio.felt_loop import Plan, felt_loop
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext

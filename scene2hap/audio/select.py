@@ -79,13 +79,10 @@ class Choice:
 
     The winner has no silent ends, is faded over 5 ms at cuts, and has a peak of 1. `start_up` and `wind_down` are the
     curves of a machine's start and stop that were cut off, None for none.
-    `dynamic_range_limit_db` is the raised limit, `flatness_band_hz` the band in which flatness was compared.
     """
 
     winner: AudioClip
     rows: tuple[Candidate, ...]
-    dynamic_range_limit_db: float
-    flatness_band_hz: tuple[float, float]
     start_up: RunCurve | None = None
     wind_down: RunCurve | None = None
 
@@ -140,7 +137,7 @@ def explain_choice(clips: Sequence[AudioClip]) -> Choice:
         )
 
     winner, found = _ready(clips[best], *steady_spans[best]), runs[best]
-    return Choice(winner, tuple(map(row, range(len(clips)))), limit_db, band, found.start_up, found.wind_down)
+    return Choice(winner, tuple(map(row, range(len(clips)))), found.start_up, found.wind_down)
 
 
 class _Scores(NamedTuple):

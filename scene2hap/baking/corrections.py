@@ -9,14 +9,15 @@ from pathlib import Path
 
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.sound import Progress, no_progress
-from scene2hap.bundle import BundleWarning, HapticBundle, Override, read_bundle
+from scene2hap.bundle import BundleWarning, HapticBundle, Override
+from scene2hap.bundle.folder import read_bundle
 from scene2hap.common import checks
 from scene2hap.common.counted import counted
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import BackendError, BundleError, ConfigError
 from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
 from scene2hap.llm.chain import Inference, infer_scene
-from scene2hap.llm.chain.questions import Slots
+from scene2hap.llm.chain.questions import ConcurrencyLimit
 from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.wrappers import reports
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -84,7 +85,7 @@ async def infer_corrected(
     progress: Progress | None = None,
     only: Collection[str] | None = None,
     scene_category: str | None = None,
-    slots: Slots | None = None,
+    limit: ConcurrencyLimit | None = None,
 ) -> Inference:
     """Infer a scene with the names and vibration of the overrides. See `infer_scene`.
 
@@ -106,7 +107,7 @@ async def infer_corrected(
             only=only,
             scene_category=scene_category,
             object_prompts={key: _VIBRATES for key, override in overrides.items() if override.vibrates},
-            slots=slots,
+            limit=limit,
         )
     except BackendError as cause:
         cached = reports(backend).get("CacheBackend", {})

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -100,40 +99,12 @@ def decode_frame(message: bytes) -> Frame:
     return Frame(layout, key, sequence, time_s, poses, touches)
 
 
-def encode_frame(
-    layout: int,
-    key: bytes,
-    sequence: int,
-    time_s: float,
-    poses: Floats32,
-    touches: Sequence[tuple[int, int, tuple[float, float, float]]],
-) -> bytes:
-    """Encode a frame, as a client does."""
-    header = _HEADER.pack(MAGIC, FRAME, VERSION, layout, key, sequence, 0, time_s)
-    counts = _FRAME_COUNTS.pack(len(poses), len(touches))
-    return b"".join((header, counts, poses.astype("<f4").tobytes(), np.array(list(touches), dtype=_TOUCH).tobytes()))
-
-
 def encode_gains(found: Gains) -> bytes:
     """Encode gains."""
     n_hands, n_sources, n_bands = found.gains.shape
     header = _HEADER.pack(MAGIC, GAINS, VERSION, found.layout, NO_KEY, found.sequence, found.skipped, found.time_s)
     counts = _GAINS_COUNTS.pack(n_hands, n_sources, n_bands, found.flags)
     return b"".join((header, counts, found.intensities.astype("<f4").tobytes(), found.gains.astype("<f4").tobytes()))
-
-
-def decode_gains(message: bytes) -> Gains:
-    """Decode gains, as a client does. Raises: BridgeError: not a message of gains."""
-    if kind_of(message) != GAINS or len(message) < _BEGIN:
-        raise BridgeError(f"a binary message of {len(message)} bytes and kind {message[4]} has no gains.")
-    _, _, _, layout, _, sequence, skipped, time_s = _HEADER.unpack_from(message)
-    n_hands, n_sources, n_bands, flags = _GAINS_COUNTS.unpack_from(message, _HEADER.size)
-    n = n_hands * n_sources * n_bands
-    if len(message) != _BEGIN + 4 * (n_hands + n):
-        raise BridgeError(f"gains of {n_hands} hands, {n_sources} sources and {n_bands} bands have another length.")
-    intensities = np.frombuffer(message, "<f4", n_hands, _BEGIN)
-    gains = np.frombuffer(message, "<f4", n, _BEGIN + 4 * n_hands).reshape(n_hands, n_sources, n_bands)
-    return Gains(layout, sequence, skipped, time_s, flags, intensities, gains)
 
 
 def decode_picture(message: bytes) -> tuple[bytes, bytes]:
@@ -143,8 +114,3 @@ def decode_picture(message: bytes) -> tuple[bytes, bytes]:
     if begin > len(message):
         raise BridgeError(f"a picture has {len(message)} bytes; its text alone needs {begin}.")
     return message[_PICTURE.size : begin], message[begin:]
-
-
-def encode_picture(text: bytes, file: bytes) -> bytes:
-    """Encode a picture, as a client does."""
-    return _PICTURE.pack(MAGIC, PICTURE, VERSION, len(text)) + text + file

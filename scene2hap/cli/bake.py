@@ -16,8 +16,10 @@ from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
 from scene2hap.baking.corrections import bundle_with_locked, readable_bundle
-from scene2hap.bundle import read_overrides, require_replaceable, save_stamp, step_beside, write_edited
 from scene2hap.bundle.account import write_account
+from scene2hap.bundle.folder import read_overrides, write_edited
+from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
+from scene2hap.bundle.history import step_beside
 from scene2hap.cli.console import Console
 from scene2hap.cli.edit import is_other, require_steps
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.baking import bake
-from scene2hap.bundle import require_replaceable
+from scene2hap.bundle.folder_replacement import require_replaceable
 from scene2hap.cli.console import Console
 from scene2hap.cli.picture import draw_envelopes
 from scene2hap.cli.render import render_track

@@ -168,8 +168,8 @@ def sweep(spec: object, hands: tuple[str, ...], console: Console, *, listen_to: 
     if hasattr(sink, "on_event"):
         sink.on_event = note
     sweeps = _Sweeps(len(hands))
-    with _recording(listen_to, len(hands)) as recording:
-        latency_s = _play(sink, sweeps, hands, console, tail_s=0.0 if recording is None else loopback_latency.LONGEST_S)
+    with _recorder(listen_to, len(hands)) as recorder:
+        latency_s = _play(sink, sweeps, hands, console, tail_s=0.0 if recorder is None else loopback_latency.LONGEST_S)
     stats = sink.stats
     if not stats.frames:
         reason = problems[-1] if problems else f"{type(sink).__name__} took none."
@@ -177,16 +177,16 @@ def sweep(spec: object, hands: tuple[str, ...], console: Console, *, listen_to: 
     latency = "" if latency_s is None else f", latency {1e3 * latency_s:.0f} ms"
     console.say(f"swept {', '.join(hands)}: {stats.frames} frames, {stats.underruns} underruns{latency}")
     outcome: dict[str, Any] = {"frames": stats.frames, "underruns": stats.underruns, "latency_s": latency_s}
-    if recording is not None:
-        outcome["loop_back"] = _measured(recording.take(), sweeps.requested_at_s, hands, console)
+    if recorder is not None:
+        outcome["loop_back"] = _measured(recorder.recording(), sweeps.requested_at_s, hands, console)
     return outcome
 
 
-def _recording(listen_to: str | None, n_hands: int) -> loopback_latency.Recording | nullcontext[None]:
+def _recorder(listen_to: str | None, n_hands: int) -> loopback_latency.Recorder | nullcontext[None]:
     if listen_to is None:
         return nullcontext()
     card = loopback_latency.find_input(int(listen_to) if listen_to.isdigit() else listen_to or None)
-    return loopback_latency.Recording(card, RATE_HZ, max(2, n_hands))
+    return loopback_latency.Recorder(card, RATE_HZ, max(2, n_hands))
 
 
 def _play(
@@ -223,32 +223,32 @@ def _keep_fed(safety: SafetyLayer, seconds: float) -> None:
 
 
 def _measured(
-    take: loopback_latency.Take, requested_at_s: list[float | None], hands: tuple[str, ...], console: Console
+    recording: loopback_latency.Recording, requested_at_s: list[float | None], hands: tuple[str, ...], console: Console
 ) -> dict[str, Any]:
     """Show each hand's latency in the recording, and return it as JSON values."""
-    pattern = _wave(np.arange(round(SWEEP_S * take.rate_hz)) / take.rate_hz)
+    pattern = _wave(np.arange(round(SWEEP_S * recording.rate_hz)) / recording.rate_hz)
     by_hand: dict[str, Any] = {}
-    console.say(f"heard by {take.device!r}, {MEASURED}:")
+    console.say(f"heard by {recording.device!r}, {MEASURED}:")
     for hand, at_s in zip(hands, requested_at_s, strict=True):
         if at_s is None:
             by_hand[hand] = None
             console.say(f"  {hand}: the sink requested no samples of it")
             continue
-        found = loopback_latency.arrival(take, at_s, pattern)
+        found = loopback_latency.measure_latency(recording, at_s, pattern)
         by_hand[hand] = asdict(found)
         console.say(f"  {hand}: {_sentence(found)}")
-    if take.gaps:
-        console.say(f"  the input lost samples {take.gaps} times; measure again on a quieter machine")
+    if recording.gaps:
+        console.say(f"  the input lost samples {recording.gaps} times; measure again on a quieter machine")
     return {
-        "input": take.device,
+        "input": recording.device,
         "measured": MEASURED,
         "found_from": loopback_latency.FOUND_FROM,
-        "gaps": take.gaps,
+        "gaps": recording.gaps,
         "hands": by_hand,
     }
 
 
-def _sentence(found: loopback_latency.Arrival) -> str:
+def _sentence(found: loopback_latency.Latency) -> str:
     if found.latency_s is None:
         return (
             f"not found: correlation {found.correlation:.2f}, below {loopback_latency.FOUND_FROM:g}; "

@@ -41,20 +41,11 @@ from typing import Any
 
 from scene2hap.baking import BakeConfig, rebake
 from scene2hap.baking.sound import Remade
-from scene2hap.bundle import (
-    HapticBundle,
-    Override,
-    differences,
-    pop,
-    require_replaceable,
-    save_stamp,
-    step_beside,
-    steps_beside,
-    warned_of_steps,
-    write_both,
-    write_edited,
-)
-from scene2hap.bundle.history import MOST_STEPS, Kind
+from scene2hap.bundle import HapticBundle, Override
+from scene2hap.bundle.differences import differences
+from scene2hap.bundle.folder import write_both, write_edited
+from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
+from scene2hap.bundle.history import MOST_STEPS, Kind, pop, step_beside, steps_beside, warned_of_steps
 from scene2hap.cli.console import Console, Tell
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import show_report

@@ -21,7 +21,8 @@ import os
 from pathlib import Path
 from typing import Any
 
-from scene2hap.bundle import HapticBundle, file_stems
+from scene2hap.bundle import HapticBundle
+from scene2hap.bundle.sounds import file_stems
 from scene2hap.cli.bake import add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
 from scene2hap.cli.tables import bundle_outcome, scene_outcome, show_bundle, show_scene

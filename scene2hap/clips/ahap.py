@@ -23,7 +23,6 @@ import numpy as np
 from scene2hap.clips.fields import Fields, read_fields, rising_times
 from scene2hap.clips.haptic_clip import (
     MAX_CLIP_S,
-    MAX_POINTS,
     ClipMetadata,
     ClipWarning,
     Curve,
@@ -205,7 +204,7 @@ def _pair(path: Path) -> tuple[Path, ...]:
 
 def _pattern(fields: Fields) -> _Pattern:
     pattern = _Pattern()
-    for item in fields.items("Pattern", MAX_POINTS):
+    for item in fields.items("Pattern"):
         if "Event" in item:
             _read_event(item.within("Event"), pattern)
         elif "ParameterCurve" in item:
@@ -225,7 +224,7 @@ def _pattern(fields: Fields) -> _Pattern:
 def _read_event(event: Fields, pattern: _Pattern) -> None:
     kind, start = event.text("EventType"), _time(event)
     values = {_INTENSITY: 1.0, _SHARPNESS: 0.5}  # Apple's defaults
-    for one in event.items("EventParameters", MAX_POINTS) if "EventParameters" in event else ():
+    for one in event.items("EventParameters") if "EventParameters" in event else ():
         name, value = one.text("ParameterID"), _value(one)
         if name in values:
             values[name] = _unit(value)
@@ -246,7 +245,7 @@ def _read_event(event: Fields, pattern: _Pattern) -> None:
 
 def _read_curve(curve: Fields, pattern: _Pattern) -> None:
     start = _time(curve)
-    rows = curve.items("ParameterCurveControlPoints", MAX_POINTS)
+    rows = curve.items("ParameterCurveControlPoints")
     points = [*zip(rising_times(rows, "Time", default=0.0), map(_value, rows), strict=True)]
     is_absolute = start > 0.0 and bool(points) and abs(points[0][0] - start) < 1e-9
     if not is_absolute:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from scene2hap.clips.haptic_clip import MAX_CLIP_S
+from scene2hap.clips.haptic_clip import MAX_CLIP_S, MAX_POINTS
 from scene2hap.common import checks
 from scene2hap.common.printable import parse_json
 from scene2hap.common.text_files import read_small
@@ -43,14 +43,14 @@ class Fields:
         """Return the object in a field. Raises: ClipError: it is missing, or no object."""
         return Fields(self._required(name), self.file, self._at(name))
 
-    def items(self, name: str, at_most: int) -> tuple[Fields, ...]:
+    def items(self, name: str) -> tuple[Fields, ...]:
         """Return the objects of a list in a field. Raises: ClipError: it is missing, no list of objects, or too
         long."""
         found = self._required(name)
         if not isinstance(found, list):
             raise self.error(name, f"is {checks.described(found)}; it must be a list")
-        if len(found) > at_most:
-            raise self.error(name, f"has {len(found)} items; it must have at most {at_most}. Split the clip")
+        if len(found) > MAX_POINTS:
+            raise self.error(name, f"has {len(found)} items; it must have at most {MAX_POINTS}. Split the clip")
         return tuple(Fields(item, self.file, f"{self._at(name)}[{i}]") for i, item in enumerate(found))
 
     def number(
@@ -65,11 +65,11 @@ class Fields:
         place = f"{self.file}: {self._at(name)}"
         return checks.number(place, value, unit, at_least=at_least, at_most=at_most, error=ClipError)
 
-    def text(self, name: str, default: str = "") -> str:
-        """Return the text in a field, or the default. Raises: ClipError: it is something else."""
+    def text(self, name: str) -> str:
+        """Return the text in a field, "" if it is missing. Raises: ClipError: it is something else."""
         value = self._document.get(name)
         if value is None:
-            return default
+            return ""
         if not isinstance(value, str):
             raise self.error(name, f"is {checks.represented(value)}; it must be a text")
         return value

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from scene2hap.clips.fields import Fields, read_fields, rising_times
-from scene2hap.clips.haptic_clip import MAX_POINTS, ClipMetadata, ClipWarning, Curve, HapticClip, Transient
+from scene2hap.clips.haptic_clip import ClipMetadata, ClipWarning, Curve, HapticClip, Transient
 from scene2hap.common.warning import warn_of
 
 SUFFIX = ".haptic"
@@ -31,7 +31,7 @@ def read_haptic(path: Path) -> HapticClip:
     if version != _VERSION:
         raise fields.error("version.major", f"is {version:g}; it must be {_VERSION}. Export the clip as version 1")
     envelopes = fields.within("signals").within("continuous").within("envelopes")
-    rows = envelopes.items("amplitude", MAX_POINTS)
+    rows = envelopes.items("amplitude")
     if len(rows) < 2:
         raise envelopes.error("amplitude", f"has {len(rows)} points; it must have at least 2")
     times = rising_times(rows, "time")
@@ -45,7 +45,7 @@ def read_haptic(path: Path) -> HapticClip:
     )
     about = _about(fields)
     frequency = None
-    if "frequency" in envelopes and (points := envelopes.items("frequency", MAX_POINTS)):
+    if "frequency" in envelopes and (points := envelopes.items("frequency")):
         bends = rising_times(points, "time")
         frequency = Curve(np.array(bends), np.array([point.number("frequency") for point in points]))
         outside = [(at, point) for at, point in zip(bends, points, strict=True) if not times[0] <= at <= times[-1]]

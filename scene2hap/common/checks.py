@@ -24,23 +24,26 @@ if TYPE_CHECKING:
 
 Kind = TypeVar("Kind")
 
-_SECRET_NAME = re.compile(r"(key|token|secret|password)s?$", re.IGNORECASE)
+MASK = "******"
+"""Text in place of a key."""
+SECRET_NAME = re.compile(r"(key|token|secret|password|credential)s?$", re.IGNORECASE)
+"""Names of settings and environment variables whose values may be keys."""
 _SECRET_PART = re.compile(r"(://)[^/@\s'\"]+(?=@)|(://[^?\s'\"]*\?)[^\s'\"]+|\bsk-[\w-]{16,}")
 
 
 def shown(value: object, name: object = "") -> str:
     """Format a value for an error message.
 
-    Masked are settings named key, token, secret or password, credentials and queries of addresses, and keys of OpenAI
+    Masked are settings named as in `SECRET_NAME`, credentials and queries of addresses, and keys of OpenAI
     under any name, since a name may have a typing error.
     """
-    if isinstance(name, str) and _SECRET_NAME.search(name):
-        return "'***'"
+    if isinstance(name, str) and SECRET_NAME.search(name):
+        return repr(MASK)
     if isinstance(value, Mapping):
         return _cut("{" + ", ".join(f"{represented(key)}: {shown(item, key)}" for key, item in value.items()) + "}")
     if isinstance(value, list | tuple):
         return _cut("[" + ", ".join(map(shown, value)) + "]")
-    return _SECRET_PART.sub(lambda found: f"{found[1] or found[2] or ''}***", represented(value))
+    return _SECRET_PART.sub(lambda found: f"{found[1] or found[2] or ''}{MASK}", represented(value))
 
 
 _LONGEST_SHOWN = 200
@@ -296,20 +299,22 @@ def texts(name: str, value: object, *, error: type[Scene2HapError]) -> tuple[str
     return tuple(found)
 
 
-def names(name: str, value: object, *, error: type[Scene2HapError] = ConfigError) -> tuple[str, ...]:
-    """Return one or more distinct names from a sequence. Raises: `error`: any other value, including one string."""
+def names(name: str, value: object) -> tuple[str, ...]:
+    """Return one or more distinct names from a sequence. Raises: ConfigError: any other value, including one string."""
     if isinstance(value, str):
-        raise error(f"{name} is {shown(value)}; it must be a sequence of names, as [{shown(value)}].")
+        raise ConfigError(f"{name} is {shown(value)}; it must be a sequence of names, as [{shown(value)}].")
     if isinstance(value, set | frozenset):
-        raise error(
+        raise ConfigError(
             f"{name} is a set, which has no order; it must be a sequence of names, as {sorted(map(str, value))}."
         )
     found = tuple(value) if isinstance(value, Iterable) else ()
     twice = next((x for i, x in enumerate(found) if isinstance(x, str) and x in found[:i]), None)
     if twice is not None:
-        raise error(f"{name} is {shown(found)}, with {shown(twice)} twice; it must be at least one name, each once.")
+        raise ConfigError(
+            f"{name} is {shown(found)}, with {shown(twice)} twice; it must be at least one name, each once."
+        )
     if not found or not all(isinstance(x, str) and x.strip() for x in found) or len(set(found)) < len(found):
-        raise error(f"{name} is {shown(value)}; it must be at least one name, each once.")
+        raise ConfigError(f"{name} is {shown(value)}; it must be at least one name, each once.")
     return found
 
 

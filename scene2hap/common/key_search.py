@@ -20,6 +20,8 @@ from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
+from scene2hap.common.checks import MASK
+
 _ROUNDS = 5
 """Most levels of nested escapes that are undone; assumed."""
 _SHORTEST = 8
@@ -47,8 +49,8 @@ _NAMED, _WIDE = 8, 10
 _LETTERS = re.compile(r"[A-Za-z0-9]+")
 
 
-def masked(text: str, key: str, mask: str) -> str:
-    """Replace each occurrence of the key in a text by `mask`, in any spelling."""
+def masked(text: str, key: str) -> str:
+    """Replace each occurrence of the key in a text by `MASK`, in any spelling."""
     spans = [(found.start(), found.end()) for found in re.finditer(re.escape(key), text)] if key else []
     needles = _needles(key)
     levels: list[_Level] = []
@@ -62,7 +64,7 @@ def masked(text: str, key: str, mask: str) -> str:
         if (bare := _unescaped(read)) is None:
             break
         levels.append(bare)
-    return _with_mask(text, spans, mask)
+    return _with_mask(text, spans)
 
 
 class _Level(NamedTuple):
@@ -237,7 +239,7 @@ def _skeleton(text: str) -> str:
     return "".join(_LETTERS.findall(text)).lower()
 
 
-def _with_mask(text: str, spans: list[tuple[int, int]], mask: str) -> str:
+def _with_mask(text: str, spans: list[tuple[int, int]]) -> str:
     merged: list[tuple[int, int]] = []
     for start, end in sorted(spans):
         if merged and start <= merged[-1][1]:
@@ -245,4 +247,4 @@ def _with_mask(text: str, spans: list[tuple[int, int]], mask: str) -> str:
         else:
             merged.append((start, end))
     edges = [0, *(edge for span in merged for edge in span), len(text)]
-    return mask.join(text[start:end] for start, end in list(pairwise(edges))[::2])
+    return MASK.join(text[start:end] for start, end in list(pairwise(edges))[::2])

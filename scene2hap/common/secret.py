@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import os
 
+from scene2hap.common.checks import MASK
 from scene2hap.common.key_search import masked
 from scene2hap.errors import CallError, ConfigError
-
-MASK = "******"
 
 _SHORTEST_SCRUBBED = 16
 """Least number of characters that are scrubbed; assumed. Real keys are longer. Local servers use dummies ("EMPTY",
@@ -61,4 +60,4 @@ class Secret:
         value = self.reveal()
         if len(value) < _SHORTEST_SCRUBBED:
             return text
-        return masked(text, value, MASK)
+        return masked(text, value)

@@ -3,9 +3,9 @@
 A sink reports the latency that its driver states. A loop-back measures the whole latency, with parts that the driver
 does not report.
 
-    with Recording(find_input(None), 48000, 2) as recording:
+    with Recorder(find_input(None), 48000, 2) as recorder:
         ...                                     # play the pattern, and note when its first samples are requested
-    arrival(recording.take(), requested_at_s, pattern).latency_s
+    measure_latency(recorder.recording(), requested_at_s, pattern).latency_s
 
 The time of a frame is that at which the driver delivered its block. Drivers also report the time at the converter, but
 not reliably: PulseAudio behind ALSA reports times up to 15 ms after the delivery of the block.
@@ -45,7 +45,7 @@ _SILENT = 1e-9
 
 
 @dataclass(frozen=True)
-class Match:
+class CorrelationPeak:
     """The best match of a pattern in a recording: first frame, correlation [-1, 1], and gain of the recording."""
 
     frame: int
@@ -54,7 +54,7 @@ class Match:
 
 
 @dataclass(frozen=True)
-class Take:
+class Recording:
     """A recording from an input.
 
     `samples` (n_frames, n_channels) float32; `handed_over_s` (n_blocks,), the delivery times of blocks [s, on
@@ -90,8 +90,8 @@ def _near(apart_s: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 
 @dataclass(frozen=True)
-class Arrival:
-    """The arrival of a pattern at an input after its request.
+class Latency:
+    """The latency of a pattern at an input after its request.
 
     `latency_s` is None if no correlation reaches `FOUND_FROM`. It may be too long by `uncertainty_s`, a recorded block.
     `channel` is the input's, from 1; `gain_db` is from pattern to input. `correlation` in [-1, 1] is negative if a
@@ -105,18 +105,18 @@ class Arrival:
     gain_db: float | None
 
 
-def find(heard: NDArray[np.floating], pattern: NDArray[np.floating]) -> Match:
+def correlation_peak(heard: NDArray[np.floating], pattern: NDArray[np.floating]) -> CorrelationPeak:
     """Search a pattern in a recording, at any level and polarity.
 
         r[k] = sum_i x[k + i] p[i] / (|p| sqrt(sum_i x[k + i]^2)), at the k of the largest |r|
 
     Parameters: heard : (n,); pattern : (m,), not all zero.
-    Returns: the best match; frame 0 and correlation 0 if n < m or the recording is silent.
+    Returns: the highest peak; frame 0 and correlation 0 if n < m or the recording is silent.
     Source: normalised cross-correlation, e.g. Lewis 1995, Fast Template Matching.
     """
     x, p = np.asarray(heard, dtype=np.float64), np.asarray(pattern, dtype=np.float64)
     if len(x) < len(p) or not x.any():
-        return Match(0, 0.0, 0.0)
+        return CorrelationPeak(0, 0.0, 0.0)
     n = 1 << (len(x) - 1).bit_length()  # this wraps around only at lags that are cut off
     products = np.fft.irfft(np.fft.rfft(x, n) * np.conj(np.fft.rfft(p, n)), n)[: len(x) - len(p) + 1]
     sums = np.concatenate([[0.0], np.cumsum(x**2)])
@@ -124,21 +124,21 @@ def find(heard: NDArray[np.floating], pattern: NDArray[np.floating]) -> Match:
     own = float(p @ p)
     r = products / np.sqrt(own * np.maximum(energy, _SILENT * energy.max()))
     frame = int(np.argmax(np.abs(r)))
-    return Match(frame, float(np.clip(r[frame], -1.0, 1.0)), float(abs(products[frame])) / own)
+    return CorrelationPeak(frame, float(np.clip(r[frame], -1.0, 1.0)), float(abs(products[frame])) / own)
 
 
-def arrival(take: Take, requested_at_s: float, pattern: NDArray[np.floating]) -> Arrival:
-    """Search a pattern (m,) with the take's rate on every channel, from the time [s] of its request."""
-    margin = round(take.block_s * take.rate_hz)
-    begin = max(0, take.frame_at(requested_at_s) - margin)
-    end = begin + len(pattern) + round(LONGEST_S * take.rate_hz) + 2 * margin
-    matches = [find(channel, pattern) for channel in take.samples[begin:end].T]
-    best = max(range(len(matches)), key=lambda index: abs(matches[index].correlation))
-    match = matches[best]
-    if abs(match.correlation) < FOUND_FROM:
-        return Arrival(None, take.block_s, match.correlation, best + 1, None)
-    latency_s = take.time_of(begin + match.frame) - requested_at_s
-    return Arrival(latency_s, take.block_s, match.correlation, best + 1, 20 * math.log10(match.gain))
+def measure_latency(recording: Recording, requested_at_s: float, pattern: NDArray[np.floating]) -> Latency:
+    """Search a pattern (m,) with the recording's rate on every channel, from the time [s] of its request."""
+    margin = round(recording.block_s * recording.rate_hz)
+    begin = max(0, recording.frame_at(requested_at_s) - margin)
+    end = begin + len(pattern) + round(LONGEST_S * recording.rate_hz) + 2 * margin
+    peaks = [correlation_peak(channel, pattern) for channel in recording.samples[begin:end].T]
+    best = max(range(len(peaks)), key=lambda index: abs(peaks[index].correlation))
+    peak = peaks[best]
+    if abs(peak.correlation) < FOUND_FROM:
+        return Latency(None, recording.block_s, peak.correlation, best + 1, None)
+    latency_s = recording.time_of(begin + peak.frame) - requested_at_s
+    return Latency(latency_s, recording.block_s, peak.correlation, best + 1, 20 * math.log10(peak.gain))
 
 
 def find_input(device: str | int | None) -> Card:
@@ -156,7 +156,7 @@ def find_input(device: str | int | None) -> Card:
     return found
 
 
-class Recording:
+class Recorder:
     """A context manager that records an input.
 
     Parameters: card : from `find_input`; rate_hz : requested rate, if impossible the card's own is used; n_channels :
@@ -184,12 +184,12 @@ class Recording:
         stream, self._stream = self._stream, None
         portaudio.close_stream(stream)
 
-    def take(self) -> Take:
+    def recording(self) -> Recording:
         """Return the recording so far. Raises: DeviceError: no block has arrived."""
         blocks = list(self._blocks)
         if not blocks:
             raise DeviceError(f"input {self._card.name!r} gave no samples; try another with --loop-back INPUT.")
-        return Take(
+        return Recording(
             device=self._card.name,
             rate_hz=self._rate_hz,
             samples=np.concatenate([block for _, block in blocks]),

@@ -38,8 +38,6 @@ FINENESS = {
     "medium": Fineness(1.45 / math.pi, 3, 12, least_wider=0),
     "modal": FINE,
 }
-RUNGS = ("rigid", "infinite", "lattice", *FINENESS)
-"""Names of the rungs, in the order in which they are tried."""
 MODAL_DB = {
     "held, and quiet": {"coarse": 0.75, "medium": 0.4},
     "held": {"coarse": 5.0, "medium": 2.3},

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -29,17 +28,6 @@ WAVELESS_HZ = 2000.0
 """First mode above which a free plate has no waves up to 1 kHz: a rigid body is then the better model."""
 
 _FARTHEST_M = 1e9
-
-
-def point_mobility_s_kg(plate: Plate) -> float:
-    """Velocity over force at the driven point of the plate without edges or loss, real and the same at all frequencies.
-
-    Y0 = 1 / (8 sqrt(D m)) [m/s/N = s/kg].
-
-    Source: Cremer, Heckl, Petersson, Structure-Borne Sound, point-driven plate.
-    """
-    m = plate.material.density_kg_m3 * plate.thickness_m
-    return 1 / (8 * math.sqrt(plate.bending_stiffness_nm * m))
 
 
 @clear_construction

@@ -52,7 +52,7 @@ def welded_at(item: SceneObject, other: SceneObject) -> Hinge | None:
     return Hinge(other.id, item.pose.to_own(other.pose.to_world([middle]))[0].tolist(), middle.tolist())
 
 
-class Chain(NamedTuple):
+class KinematicChain(NamedTuple):
     """Objects that hinges join, directly or by others: their ids in scene order, and the number of objects of its
     longest series, in which each is held on the one before."""
 
@@ -60,17 +60,17 @@ class Chain(NamedTuple):
     n_in_series: int
 
 
-def chains(objects: Sequence[SceneObject]) -> dict[str, Chain]:
+def kinematic_chains(objects: Sequence[SceneObject]) -> dict[str, KinematicChain]:
     """Return the chain of each object that is held by a hinge or holds another, by the object's id."""
     before = series({item.id: item.hinge.to for item in objects if item.hinge is not None})
     members = dict[str, list[str]]()
     for item in objects:
         first, _ = before.get(item.id, (item.id, 0))
         members.setdefault(first, []).append(item.id)
-    found = dict[str, Chain]()
+    found = dict[str, KinematicChain]()
     for together in members.values():
         if len(together) > 1:
-            chain = Chain(tuple(together), max(before[x][1] for x in together if x in before) + 1)
+            chain = KinematicChain(tuple(together), max(before[x][1] for x in together if x in before) + 1)
             found.update(dict.fromkeys(together, chain))
     return found
 

@@ -228,17 +228,6 @@ class SceneObject:
         object.__setattr__(held, "is_measured_with_y_up", self.is_measured_with_y_up)
         return held
 
-    def plate_coordinates(self, points_m: ArrayLike) -> NDArray[np.float64]:
-        """Return world points (n, 3) [m] as (n, 2) [m] along length and width of the dominant surface, from its corner.
-
-        Points beside the plate are moved to its nearest edge.
-        """
-        points = np.atleast_2d(checks.floats("points_m", points_m, "m", error=SceneError))
-        if points.ndim != 2 or points.shape[1] != 3 or not np.isfinite(points).all():
-            raise SceneError(f"points_m has shape {points.shape}; it must be (n, 3) finite numbers [m].")
-        flat = self.surface.pose.to_own(self.pose.to_own(points))[:, :2]
-        return np.clip(flat, 0.0, [self.surface.length_m, self.surface.width_m])
-
 
 def measured_surface(geometry: Geometry, pose: Pose, up_axis: UpAxis) -> DominantSurface:
     """Return the dominant surface of an object at this rotation, cached for equal meshes."""

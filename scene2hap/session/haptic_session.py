@@ -270,9 +270,7 @@ class HapticSession:
         require_addable(object, haptics, loops)
         if haptics is None and loops is None:
             haptics, loops = self._bundle.objects.get(object.id), self._bundle.loops.get(object.id)
-        if self._put(object, haptics, loops or {}, self._bundle, object.id):
-            self._play_sources()
-        self._mistakes.in_added(object.id, haptics, loops or {})
+        self._add(object, haptics, loops or {}, self._bundle, object.id)
 
     def spawn(self, prefab: HapticBundle, object_id: str, pose: Pose) -> None:
         """Add a copy of a prefab, which is a bundle of one object, as `bake_object` makes it.
@@ -284,10 +282,7 @@ class HapticSession:
         require_prefab(prefab, pose)
         (original,) = prefab.snapshot.objects
         copy = replace(original, id=object_id, name=object_id, pose=pose)
-        haptics, loops = prefab.objects.get(original.id), prefab.loops.get(original.id, {})
-        if self._put(copy, haptics, loops, prefab, original.id):
-            self._play_sources()
-        self._mistakes.in_added(object_id, haptics, loops)
+        self._add(copy, prefab.objects.get(original.id), prefab.loops.get(original.id, {}), prefab, original.id)
 
     def use_bundle(self, bundle: HapticBundle) -> None:
         """Play a corrected bundle of the same scene: loops that differ are cross-faded, levels change at once.
@@ -326,17 +321,16 @@ class HapticSession:
         self._state.require(object_id)
         if len(self._state.objects) == 1:
             raise SessionError(f"{object_id!r} is the last object of the scene; add another one before removing it.")
-        if self._take_out(object_id):
-            self._play_sources()
+        self._take_out(object_id)
+        self._play_sources()
 
-    def _take_out(self, object_id: str) -> bool:
-        """Remove an object, whose loops play on until `_play_sources`. Returns True if it is a source."""
+    def _take_out(self, object_id: str) -> None:
+        """Remove an object, whose loops play on until `_play_sources`."""
         change = self._state.remove(object_id)
         is_source = object_id in self._sources
         if is_source:
             self._sources.remove(object_id)
         self._hand_frames.apply(change, sources_changed=is_source)
-        return is_source
 
     def add_hand(self, name: str) -> None:
         """Add an output. A sink that is running is faded out and reopened with one channel more.
@@ -620,6 +614,19 @@ class HapticSession:
     def _whole(self) -> WholeFrames:
         return WholeFrames(self.config.sample_rate_hz)
 
+    def _add(
+        self,
+        item: SceneObject,
+        haptics: ObjectHaptics | None,
+        loops: Mapping[str, HapticLoop],
+        corrected: HapticBundle,
+        its_id: str,
+    ) -> None:
+        """Add an object and play its loops; see `_put`."""
+        self._put(item, haptics, loops, corrected, its_id)
+        self._play_sources()
+        self._mistakes.in_added(item.id, haptics, loops)
+
     def _put(
         self,
         item: SceneObject,
@@ -627,17 +634,13 @@ class HapticSession:
         loops: Mapping[str, HapticLoop],
         corrected: HapticBundle,
         its_id: str,
-    ) -> bool:
-        """Add an object with the level and the mute switch that a bundle has for `its_id`; `_play_sources` plays it.
-
-        Returns True if it is a source.
-        """
+    ) -> None:
+        """Add an object with the level and the mute switch that a bundle has for `its_id`; `_play_sources` plays it."""
         change = self._state.add(item, haptics)
         self._shapes.order([item.geometry.mesh])
         if loops:
             self._sources.add(item.id, loops, haptics, _level(corrected, its_id))
         self._hand_frames.apply(change, sources_changed=bool(loops))
-        return bool(loops)
 
     def _exchange(self, object_id: str) -> None:
         """Replace the data of an object by the bundle's present data, at the same pose."""

@@ -49,12 +49,14 @@ def plot_felt(
         up_to_m = checks.number("up_to_m", up_to_m, "m", error=SessionError)
     figure = new_figure(8.0, 5.0) if axes is None else axes.figure
     axes = figure.add_subplot() if axes is None else axes
+    from matplotlib.colors import ListedColormap  # after `new_figure`, which says if matplotlib is missing
+
     view = TopView.of(scene, cells, up_to_m)
     gains = _gains(view, hand, gains_of)
     with np.errstate(divide="ignore"):
         level_db = 20.0 * np.log10(gains)
     level_db[~np.isfinite(level_db)] = np.nan
-    draw_values(axes, view, np.where(view.top == NOTHING, np.nan, 1.0), cmap=_of_one(EMPTY), zorder=0)
+    draw_values(axes, view, np.where(view.top == NOTHING, np.nan, 1.0), cmap=ListedColormap([EMPTY]), zorder=0)
     highest = 0.0 if np.isnan(level_db).all() else float(np.nanmax(level_db))
     image = draw_values(axes, view, level_db, cmap="viridis", vmin=highest - RANGE_DB, vmax=highest, zorder=1)
     figure.colorbar(image, ax=axes, extend="min", label="level at the hand [dB re the source itself]", shrink=0.9)
@@ -99,9 +101,3 @@ def _draw_legend(axes: Axes, view: TopView, source_id: str, *, has_silence: bool
     # Below the label of the axis, whose distance in inches does not depend on the height of the axes.
     below = axes.transAxes + ScaledTranslation(0.0, -_LABEL_IN, axes.figure.dpi_scale_trans)
     add_legend(axes, handles, labels, loc="upper center", bbox_to_anchor=(0.5, 0.0), bbox_transform=below, ncols=2)
-
-
-def _of_one(colour: str) -> object:
-    from matplotlib.colors import ListedColormap
-
-    return ListedColormap([colour])

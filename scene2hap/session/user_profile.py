@@ -35,7 +35,7 @@ LEAST_AMPLITUDE = 1e-4
 _MOST_POINTS = 1000
 
 
-class Comfort(Settings):
+class LevelAndLimit(Settings):
     """A level and a limit.
 
     gain_db : level that is added to the level of all vibration [dB].
@@ -48,7 +48,7 @@ class Comfort(Settings):
     max_amplitude: float = Field(default=1.0, ge=LEAST_AMPLITUDE, le=1.0)
 
 
-class UserProfile(Comfort):
+class UserProfile(LevelAndLimit):
     """Levels and limits of one person. Levels add up, and the smallest limit counts.
 
     gain_db : level of all vibration [dB].
@@ -61,8 +61,8 @@ class UserProfile(Comfort):
     """
 
     curve_db: tuple[tuple[float, float], ...] = ()
-    hands: dict[str, Comfort] = Field(default_factory=dict)
-    devices: dict[str, Comfort] = Field(default_factory=dict)
+    hands: dict[str, LevelAndLimit] = Field(default_factory=dict)
+    devices: dict[str, LevelAndLimit] = Field(default_factory=dict)
 
     if TYPE_CHECKING:
         # Type checkers do not know which other forms pydantic accepts.
@@ -72,8 +72,8 @@ class UserProfile(Comfort):
             gain_db: float = 0.0,
             max_amplitude: float = 1.0,
             curve_db: Sequence[Sequence[float]] = (),
-            hands: Mapping[str, Comfort | Mapping[str, float]] = ...,
-            devices: Mapping[str, Comfort | Mapping[str, float]] = ...,
+            hands: Mapping[str, LevelAndLimit | Mapping[str, float]] = ...,
+            devices: Mapping[str, LevelAndLimit | Mapping[str, float]] = ...,
         ) -> None: ...
 
     @field_validator("curve_db")
@@ -117,8 +117,8 @@ class UserProfile(Comfort):
         except OSError as cause:
             raise ConfigError(unwritable(file, cause)) from cause
 
-    def _special(self, hand: str, device: str) -> Sequence[Comfort]:
-        tables: tuple[tuple[Mapping[str, Comfort], str], ...] = ((self.hands, hand), (self.devices, device))
+    def _special(self, hand: str, device: str) -> Sequence[LevelAndLimit]:
+        tables: tuple[tuple[Mapping[str, LevelAndLimit], str], ...] = ((self.hands, hand), (self.devices, device))
         return [table[name] for table, name in tables if name in table]
 
 

@@ -41,7 +41,7 @@ add("bridge messages", _requests, _parsed, names_file=False, opens_files=False)
 
 
 def _frame(folder: Path) -> Path:
-    from scene2hap.bridge.frames import encode_frame, encode_picture
+    from bridge_frames import encode_frame, encode_picture
 
     poses = np.array([[0.1, 0.725, 0.4, 0, 0, 0, 1]], np.float32)
     touches = [(0, 0, (0.2, 0.72, 0.4)), (1, 2, (0.1, 0.73, 0.4))]
@@ -94,7 +94,6 @@ def _wire(folder: Path) -> Path:
 
 def _heard(folder: Path) -> object:
     """Give the bytes to a device, and to a host that waits for its greeting and then for its credits."""
-    from scene2hap.devices.framing import vhp
     from scene2hap.devices.framing.frames import FrameParser, FrameType, from_datagram, samples
     from scene2hap.devices.framing.link_messages import DeviceFormat
     from scene2hap.devices.protocol import SinkFormat
@@ -110,7 +109,6 @@ def _heard(folder: Path) -> object:
         found += [samples(frame)] if frame.type is FrameType.PCM else [DeviceFormat.from_frame(frame)]
     if (one := from_datagram(datagram)) and one.type is FrameType.PCM:
         found.append(samples(one))
-    found += [vhp.from_packet(wire[:132].ljust(132, b"\0")), vhp.from_wireless(wire[:100])]
 
     class Port:
         def __init__(self) -> None:

@@ -17,7 +17,7 @@ from files_of import files_of
 from llm_server import serving
 from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake
 from scene2hap.audio.files import write_wav
-from scene2hap.bundle import differences
+from scene2hap.bundle.differences import differences
 from scene2hap.cli import main
 from scene2hap.cli.console import Console
 from scene2hap.cli.play import silence

@@ -13,7 +13,6 @@ from scene2hap.propagation.lattice.stepping import (
     NewmarkStepper,
     State,
     Stepper,
-    viscous_difference_db,
 )
 
 OMEGA = 2 * np.pi * np.array([0.01, 1.0, 8.0, 50.0, 250.0, 1000.0, 1e5])
@@ -216,15 +215,6 @@ def test_a_free_mass_falls_exactly() -> None:
     assert state.velocity[0] == pytest.approx(6.0, rel=1e-12)
 
 
-def test_viscous_and_complex_stiffness() -> None:
-    """Both modal responses written out: equal at the resonance, and 20 log sqrt(1 + eta^2) apart at 0 Hz."""
-    eta, r = 0.3, np.array([0.0, 0.4, 1.0, 2.5])
-    hysteretic, viscous = 1 / (1 + 1j * eta - r**2), 1 / (1 - r**2 + 1j * eta * r)
-    np.testing.assert_allclose(viscous_difference_db(eta, r), 20 * np.log10(np.abs(viscous / hysteretic)), atol=1e-12)
-    assert viscous_difference_db(eta, 1.0) == pytest.approx(0.0, abs=1e-12)
-    assert viscous_difference_db(eta, 0.0) == pytest.approx(10 * np.log10(1 + eta**2))
-
-
 def test_invalid_settings_are_refused() -> None:
     with pytest.raises(ModelDomainError, match="dt_s is 0 s"):
         ExactStepper([1.0], 0.0, 0.0)
@@ -243,5 +233,3 @@ def test_invalid_settings_are_refused() -> None:
     chain = np.array([[1e12, -1e12], [-1e12, 1e12]])
     with pytest.raises(ModelDomainError, match="step the system's modes"):
         NewmarkStepper([1.0, 1.0], np.zeros((2, 2)), chain, 1.0)
-    with pytest.raises(ModelDomainError, match="loss_factor"):
-        viscous_difference_db(0.0, 1.0)

@@ -17,7 +17,8 @@ from jsonschema import Draft202012Validator
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from scene2hap.bridge.frames import Gains, decode_gains, encode_frame
+from bridge_frames import decode_gains, encode_frame
+from scene2hap.bridge.frames import Gains
 from scene2hap.session import Touch
 from scene2hap.testing.bridge_game import IDS, game_scene, positions_m, time_s, touches
 

@@ -43,7 +43,7 @@ from scene2hap import (
 )
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
 from scene2hap.session.config import SkipConfig
-from scene2hap.session.user_profile import Comfort
+from scene2hap.session.user_profile import LevelAndLimit
 
 SINGLE: NDArray[np.float32] = np.array([0.5, 0.25, 0.125], dtype=np.float32)
 EXACT = (0.5, 0.25, 0.125)
@@ -107,9 +107,9 @@ def test_settings_are_names_fields_or_instances(tmp_path: Path) -> None:
     by_text, by_path = SessionConfig(actuator=str(measured)), BakeConfig(actuator=measured, prompts=tmp_path)
     assert by_text.actuator == by_path.actuator
     points = [(60, 4.0), (150, -6)]
-    profile = UserProfile(curve_db=points, hands={"left": {"gain_db": 2.0}, "right": Comfort(max_amplitude=0.4)})
+    profile = UserProfile(curve_db=points, hands={"left": {"gain_db": 2.0}, "right": LevelAndLimit(max_amplitude=0.4)})
     assert profile.curve_db == ((60.0, 4.0), (150.0, -6.0))
-    assert profile.hands["left"] == Comfort(gain_db=2.0)
+    assert profile.hands["left"] == LevelAndLimit(gain_db=2.0)
     kept: Path | None = BakeConfig(cache_dir="kept", prices={"small": (0.1, 0.4)}).cache_dir
     assert kept == Path("kept")
 

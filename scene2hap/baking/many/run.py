@@ -34,7 +34,8 @@ from scene2hap.baking.many.pool import Pool, Submits
 from scene2hap.baking.many.record import REPORT, WORK, Record, read_record, scene_digest, settings_digest, write_record
 from scene2hap.baking.many.report import ManyReport, SceneReport
 from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds, take_pictures
-from scene2hap.bundle import HapticBundle, read_overrides
+from scene2hap.bundle import HapticBundle
+from scene2hap.bundle.folder import read_overrides
 from scene2hap.bundle.sounds import file_stem
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
@@ -42,7 +43,7 @@ from scene2hap.common.run_coroutine import run_waiting
 from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import ConfigError, unwritable
 from scene2hap.llm.chain import Inference
-from scene2hap.llm.chain.questions import Slots
+from scene2hap.llm.chain.questions import ConcurrencyLimit
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.wrappers import is_remote, reports
@@ -175,7 +176,7 @@ class Run:
         self.names: dict[Path, str] = _names(self.paths)
         options = {**self.options, "pictures": self.pictures}
         self.settings: str = settings_digest(self.config, self.user_prompt, options)
-        self.slots: Slots = Slots(self.config.concurrency)  # of all scenes together
+        self.limit: ConcurrencyLimit = ConcurrencyLimit(self.config.concurrency)  # of all scenes together
 
     async def all(self) -> ManyReport:
         """Bake the scenes, and write the report."""
@@ -307,7 +308,7 @@ class Run:
         seen = await self._captured(path, scene) if self.pictures else scene
         overrides = read_overrides(self._target(path))
         found = await infer_corrected(
-            seen, backend, self.config, overrides, user_prompt=self.user_prompt, slots=self.slots
+            seen, backend, self.config, overrides, user_prompt=self.user_prompt, limit=self.limit
         )
         return _Inferred(scene, found, {"reading": read_s, "inference": time.perf_counter() - begun})
 

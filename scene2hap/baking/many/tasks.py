@@ -22,7 +22,9 @@ from scene2hap.baking.corrections import bundle_with_locked, overrides_of_scene,
 from scene2hap.baking.many.record import WORK, bundle_digest
 from scene2hap.baking.scene import bake, bake_inferred
 from scene2hap.baking.sound import N_THREADS
-from scene2hap.bundle import BundleWarning, HapticBundle, read_overrides, step_beside, write_edited
+from scene2hap.bundle import BundleWarning, HapticBundle
+from scene2hap.bundle.folder import read_overrides, write_edited
+from scene2hap.bundle.history import step_beside
 from scene2hap.common.warning import warn_of
 from scene2hap.haptics import is_unknown
 from scene2hap.llm.chain.report import InferenceReport

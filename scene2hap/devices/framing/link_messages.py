@@ -28,9 +28,9 @@ class Hello:
     sample_rate_hz: int
     channels: int
 
-    def to_frame(self, sequence: int = 0) -> Frame:
+    def to_frame(self) -> Frame:
         """Return the message as a frame."""
-        return message(FrameType.HELLO, _HELLO.pack(self.sample_rate_hz, self.channels), sequence=sequence)
+        return message(FrameType.HELLO, _HELLO.pack(self.sample_rate_hz, self.channels))
 
     @classmethod
     def from_frame(cls, frame: Frame) -> Hello | None:

@@ -43,9 +43,7 @@ class Recipient(IntEnum):
     """Recipient of a packet on the sleeve's wire."""
 
     ALL = 1
-    PUCK = 2
     SLEEVE = 3
-    SLIM_BOARD = 4
 
 
 class MessageType(IntEnum):
@@ -54,8 +52,6 @@ class MessageType(IntEnum):
     DISABLE_AMPLIFIERS = 14
     ENABLE_AMPLIFIERS = 15
     ALL_TACTORS_SAMPLES = 17
-    STREAM_START = 21
-    STREAM_STOP = 22
 
 
 @dataclass(frozen=True)
@@ -84,14 +80,6 @@ def to_bytes(block: Block) -> bytes:
     return data.tobytes()
 
 
-def from_bytes(data: bytes) -> Block:
-    """Return the samples (8, 12) float32 of 96 bytes. Raises: DeviceError: another size."""
-    if len(data) != FRAMES * CHANNELS:
-        raise DeviceError(f"a VHP block has {FRAMES * CHANNELS} bytes, got {len(data)}.")
-    raw = np.frombuffer(data, dtype=np.uint8).astype(np.float32)
-    return ((raw - MIDDLE) / np.float32(_HALF_SCALE)).reshape(FRAMES, CHANNELS)
-
-
 def slim_frame(block: Block) -> bytes:
     """Return the 100 bytes of a frame for the slim board over USB."""
     return SLIM_HEADER + to_bytes(block)
@@ -106,10 +94,3 @@ def packet(message: Message) -> bytes:
 def sleeve_packet(block: Block) -> bytes:
     """Return the packet with samples for all channels."""
     return packet(Message(MessageType.ALL_TACTORS_SAMPLES, to_bytes(block)))
-
-
-def from_packet(data: bytes) -> Message | None:
-    """Return the message of a wired packet, or None if it is not valid; never raises. The packet has no checksum."""
-    if len(data) != _PACKET_SIZE or data[0] != _START or data[3] > _PACKET_SIZE - _HEADER_SIZE:
-        return None
-    return Message(data[2], data[_HEADER_SIZE : _HEADER_SIZE + data[3]], data[1])

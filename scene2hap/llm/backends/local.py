@@ -160,7 +160,7 @@ class LocalBackend:
             if not self._optional.learns(reply, self.model or self._endpoint.base_url, sent):
                 return reply
 
-    async def _models(self) -> tuple[server_models.Served, ...]:
+    async def _models(self) -> tuple[server_models.ServerModel, ...]:
         return await (server_models.ollama_models if self._is_ollama else server_models.openai_models)(self._endpoint)
 
     async def _check_eyes(self) -> None:

@@ -64,12 +64,6 @@ class ReplayBackend:
         self._model = model
         self._all = _read(self._path)
         self._entries = {entry.key: entry for entry in self._all if model in (None, entry.asked_model or entry.model)}
-        self._played: set[str] = set()
-
-    @property
-    def unused(self) -> tuple[str, ...]:
-        """Keys of recorded answers that were not requested yet."""
-        return tuple(key for key in self._entries if key not in self._played)
 
     async def complete(self, request: LLMRequest) -> LLMReply:
         """Return the recorded answer. Raises: ReplayMiss: there is none; names the nearest one and the differences."""
@@ -77,7 +71,6 @@ class ReplayBackend:
         entry = self._entries.get(key)
         if entry is None:
             raise ReplayMiss(self._miss(request, key), key)
-        self._played.add(key)
         return LLMReply(entry.text, entry.model, entry.finish_reason, entry.usage, key, is_kept=True)
 
     def _miss(self, request: LLMRequest, key: str) -> str:

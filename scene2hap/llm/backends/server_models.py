@@ -17,7 +17,7 @@ PROBE_TIMEOUT_S = 5.0
 
 
 @dataclass(frozen=True)
-class Served:
+class ServerModel:
     """One model of a server. `sees` is None if the server does not report it; `owner` is "library" on Ollama."""
 
     name: str
@@ -25,7 +25,7 @@ class Served:
     owner: str = ""
 
 
-async def openai_models(endpoint: Endpoint) -> tuple[Served, ...]:
+async def openai_models(endpoint: Endpoint) -> tuple[ServerModel, ...]:
     """Return the models at /v1/models: from llama.cpp with their modalities, from vLLM and LM Studio by name only.
 
     Raises: BackendUnavailable: the server does not answer.
@@ -33,18 +33,22 @@ async def openai_models(endpoint: Endpoint) -> tuple[Served, ...]:
     reply = await endpoint.get("models", PROBE_TIMEOUT_S)
     listed = _dicts(reply.json() if reply.ok else None, "data")
     return tuple(
-        Served(text_of(item["id"]), _sees(item), text_of(item.get("owned_by"))) for item in listed if item.get("id")
+        ServerModel(text_of(item["id"]), _sees(item), text_of(item.get("owned_by")))
+        for item in listed
+        if item.get("id")
     )
 
 
-async def ollama_models(endpoint: Endpoint) -> tuple[Served, ...]:
+async def ollama_models(endpoint: Endpoint) -> tuple[ServerModel, ...]:
     """Return the models of Ollama; newer versions report their capabilities.
 
     Raises: BackendUnavailable: the server does not answer.
     """
     reply = await endpoint.get("api/tags", PROBE_TIMEOUT_S)
     listed = _dicts(reply.json() if reply.ok else None, "models")
-    return tuple(Served(text_of(item.get("model")) or text_of(item.get("name")), _has_vision(item)) for item in listed)
+    return tuple(
+        ServerModel(text_of(item.get("model")) or text_of(item.get("name")), _has_vision(item)) for item in listed
+    )
 
 
 async def ollama_sees(endpoint: Endpoint, model: str) -> bool | None:
@@ -60,7 +64,7 @@ async def ollama_sees(endpoint: Endpoint, model: str) -> bool | None:
     return _has_vision(body) if isinstance(body, dict) else None
 
 
-def only_one(models: tuple[Served, ...], address: str) -> str:
+def only_one(models: tuple[ServerModel, ...], address: str) -> str:
     """Return the model to use if none was named.
 
     Raises: BackendUnavailable: the server names none; ConfigError: it serves several.

@@ -31,7 +31,6 @@ class BatchStatus:
 
     id: str
     status: str
-    input_file: str = ""
     output_file: str = ""
     error_file: str = ""
     completed: int = 0
@@ -57,7 +56,7 @@ class BatchService:
         """Upload a file of requests. Returns its id."""
         fields = {"purpose": "batch"}
         reply = await self._patiently(lambda: self._endpoint.upload("files", name, content, fields))
-        return _id(reply, "file")
+        return _file_id(reply)
 
     async def create(self, input_file: str) -> BatchStatus:
         """Begin a batch. It is never retried automatically, since a second batch would cost money."""
@@ -112,10 +111,10 @@ def _successful(reply: WebReply) -> WebReply:
     return reply
 
 
-def _id(reply: WebReply, what: str) -> str:
+def _file_id(reply: WebReply) -> str:
     found = chat.text_of(chat.json_object(reply).get("id"))
     if not found:
-        raise BadAnswer(f"{reply.url} answered without the id of a {what}. Does this server have batches?", reply.text)
+        raise BadAnswer(f"{reply.url} answered without the id of a file. Does this server have batches?", reply.text)
     return found
 
 
@@ -131,7 +130,6 @@ def _status(body: Mapping[str, Any]) -> BatchStatus:
     return BatchStatus(
         batch,
         status,
-        chat.text_of(body.get("input_file_id")),
         chat.text_of(body.get("output_file_id")),
         chat.text_of(body.get("error_file_id")),
         counts.get("completed", 0),

@@ -32,10 +32,10 @@ from scene2hap.haptics import (
 from scene2hap.llm import BACKENDS
 from scene2hap.llm.answers import MaterialAnswer, ObjectAnswer, SceneAnswer, StateAnswer, VibrationAnswer
 from scene2hap.llm.chain.config import InferenceConfig
-from scene2hap.llm.chain.questions import Questions, Slots
+from scene2hap.llm.chain.questions import ConcurrencyLimit, Questions
 from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.chain.sharing import copies, of_any_scene, reachable
-from scene2hap.llm.lexicon.categories import Measured, judge
+from scene2hap.llm.lexicon.categories import ObjectFacts, judge
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.prompts.quoting import clean
 from scene2hap.llm.protocol import LLMBackend
@@ -46,7 +46,7 @@ from scene2hap.llm.validation.sizes import surface_size
 from scene2hap.materials import Material
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.copies import material_names
-from scene2hap.scene.hinges import chains
+from scene2hap.scene.hinges import kinematic_chains
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.scene.surface import plate_sizes
@@ -79,13 +79,13 @@ async def infer_scene(
     only: Collection[str] | None = None,
     scene_category: str | None = None,
     object_prompts: Mapping[str, str] | None = None,
-    slots: Slots | None = None,
+    limit: ConcurrencyLimit | None = None,
 ) -> Inference:
     """Run the chain on every object of a scene, or only on the objects with ids in `only`.
 
     If the scene has images (`capture_images`), the backend gets them. A known `scene_category` saves the call that
-    infers it. `object_prompts` are further user prompts, each for one object, by object id. `slots` limit the
-    concurrent questions of several scenes together; without them, `concurrency` limits those of this scene.
+    infers it. `object_prompts` are further user prompts, each for one object, by object id. `limit` bounds the
+    concurrent questions of several scenes together; without it, `concurrency` limits those of this scene.
 
     An object without an answer becomes "unknown" and silent. Its error is in the report and in its provenance. An error
     that would affect every further call is raised after running calls have ended.
@@ -102,7 +102,7 @@ async def infer_scene(
     questions = Questions(
         backend,
         Prompts.load(settings.prompts),
-        slots or Slots(settings.concurrency),
+        limit or ConcurrencyLimit(settings.concurrency),
         user_prompt=user_prompt,
         temperature=settings.temperature,
         object_prompts=object_prompts,
@@ -161,7 +161,7 @@ class _Chain:
         self._scene = scene
         self._category = category
         self._graph = graph
-        self._chains = chains(scene.objects)
+        self._chains = kinematic_chains(scene.objects)
         self._questions = questions
         self._settings = settings
         self._materials: dict[str, asyncio.Task[Estimate]] = {}
@@ -450,4 +450,4 @@ def _unanswered(item: SceneObject, problem: Scene2HapError) -> ObjectHaptics:
 
 
 def _seems_to_vibrate(item: SceneObject) -> bool:
-    return judge(Measured(clean(item.name), item.size_m, item.surface.flags)).vibrates
+    return judge(ObjectFacts(clean(item.name), item.size_m, item.surface.flags)).vibrates

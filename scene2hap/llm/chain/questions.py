@@ -26,20 +26,20 @@ MOST_UNANSWERED = 8
 """Questions of one component in a row without an answer that stop a run (assumed: all that run at once by default)."""
 
 
-class Slots:
+class ConcurrencyLimit:
     """Limit of concurrent questions, which the questions of several scenes can share.
 
     `n_running` questions are with the backend now; `is_stopping` is true once a cancellation has been reported.
     """
 
-    def __init__(self, n_slots: int) -> None:
-        self.free: asyncio.Semaphore = asyncio.Semaphore(n_slots)
+    def __init__(self, n_at_once: int) -> None:
+        self.free: asyncio.Semaphore = asyncio.Semaphore(n_at_once)
         self.n_running: int = 0
         self.is_stopping: bool = False
 
 
 class Questions:
-    """Send questions to a backend, as many at once as there are slots, and keep the report.
+    """Send questions to a backend, as many at once as the limit allows, and keep the report.
 
     An error that would affect every further question (an exhausted budget, a rejected key, a recording that does not
     match) stops all questions, as do `MOST_UNANSWERED` questions of one component in a row without an answer, and a
@@ -51,7 +51,7 @@ class Questions:
         self,
         backend: LLMBackend,
         prompts: Prompts,
-        slots: Slots,
+        limit: ConcurrencyLimit,
         *,
         user_prompt: str = "",
         temperature: float = 0.2,
@@ -61,7 +61,7 @@ class Questions:
         self.closed_by: Exception | None = None
         self._backend = backend
         self._prompts = prompts
-        self._slots = slots
+        self._limit = limit
         self._user_prompt = user_prompt
         self._temperature = temperature
         self._object_prompts = object_prompts or {}
@@ -82,7 +82,7 @@ class Questions:
 
     async def _kept(self, request: LLMRequest) -> LLMReply:
         """Return the backend's reply. A cancelled call ends first, since it is paid for and a cache may keep it."""
-        self._slots.n_running += 1
+        self._limit.n_running += 1
         running = asyncio.ensure_future(self._completed(request))
         try:
             return await asyncio.shield(running)
@@ -95,17 +95,17 @@ class Questions:
             raise
         finally:
             running.cancel()  # has an effect only after a second cancellation
-            self._slots.n_running -= 1
+            self._limit.n_running -= 1
 
     def _close_for_cancellation(self) -> None:
         if self.closed_by is not None:
             return
         self.closed_by = BackendUnavailable("the questions were cancelled.")
-        if self._slots.is_stopping:
+        if self._limit.is_stopping:
             return
-        self._slots.is_stopping = True
+        self._limit.is_stopping = True
         warn_of(
-            f"stopping: {counted(self._slots.n_running, 'question')} to the model will be answered first, since the "
+            f"stopping: {counted(self._limit.n_running, 'question')} to the model will be answered first, since the "
             "answers are paid for. Interrupt again to stop at once.",
             chat.BackendWarning,
         )
@@ -133,7 +133,7 @@ class Questions:
             images=images,
             temperature=self._temperature,
         )
-        async with self._slots.free:
+        async with self._limit.free:
             reply = await self._counted(request)
         answer = _validated(reply, shape, chat.about(request))
         kept_as = f", {reply.key[:19]}" if reply.key else ""

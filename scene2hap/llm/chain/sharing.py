@@ -8,7 +8,7 @@ from typing import Any
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.llm.prompts.quoting import clean
 from scene2hap.scene.copies import copy_key, name_words
-from scene2hap.scene.hinges import Chain
+from scene2hap.scene.hinges import KinematicChain
 from scene2hap.scene.objects import VERTICAL, Contact
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -18,7 +18,7 @@ _BELOW = 0.5
 """Least absolute cosine between the normal of a supporting contact and the vertical."""
 
 
-def copies(scene: SceneSnapshot, graph: ContactGraph, chains: Mapping[str, Chain]) -> dict[str, str]:
+def copies(scene: SceneSnapshot, graph: ContactGraph, chains: Mapping[str, KinematicChain]) -> dict[str, str]:
     """Return the representative of each object: the first in scene order with equal kind and equal support.
 
     Objects of one kind are copies (`scene.copies`). Supports are compared by kind. So six handles on six equal

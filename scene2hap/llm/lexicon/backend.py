@@ -42,7 +42,7 @@ def _object(facts: _Facts) -> Answer:
         for name in ("length_m", "width_m", "thickness_m")
     )
     return categories.judge(
-        categories.Measured(
+        categories.ObjectFacts(
             _text(facts, "object_name"),
             (length, width, thickness),
             _texts(facts, "surface_flags"),

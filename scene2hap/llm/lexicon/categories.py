@@ -9,7 +9,14 @@ from dataclasses import dataclass, replace
 from scene2hap.llm.answers import LONGEST_REASON, ObjectAnswer, StateAnswer
 from scene2hap.llm.lexicon.masses import usual_mass_kg
 from scene2hap.llm.lexicon.materials import make, painted_with
-from scene2hap.llm.lexicon.name_checks import MINIATURE, fit, ground_plane, meant_abroad, mounted_on, owner_of_part
+from scene2hap.llm.lexicon.name_checks import (
+    MINIATURE,
+    check_name,
+    ground_plane,
+    meant_abroad,
+    mounted_on,
+    owner_of_part,
+)
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.robot_chains import link_of_robot
 from scene2hap.llm.lexicon.table import ObjectRow, StateRow, table
@@ -35,7 +42,7 @@ _VOWEL_FIRST = re.compile(r"[aeio]|u(?!fo|k|ni|ri|sb|t)|hour|led\b|mri\b|x-ray")
 
 
 @dataclass(frozen=True)
-class Measured:
+class ObjectFacts:
     """The data of an object in the scene: authored name, size of its dominant surface, and doubts about the size.
 
     `scene_category` is empty if unknown. `material_names` are the authored names of its surface materials, empty if
@@ -56,7 +63,7 @@ class Measured:
     n_in_series: int = 0
 
 
-def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
+def judge(item: ObjectFacts, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
     """Return the Object Analyzer's answer. An unreadable name gives "unknown": silent and of low confidence."""
     length, width, thickness = (min(edge, _LARGEST_M) for edge in item.size_m)
     item = replace(item, size_m=(length, width, thickness))
@@ -78,7 +85,7 @@ def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
     return _as_real(item, reading, row, neighbour_names, why)
 
 
-def _unknown(item: Measured, reading: NameReading) -> ObjectAnswer:
+def _unknown(item: ObjectFacts, reading: NameReading) -> ObjectAnswer:
     words = ", ".join(map(repr, reading.unread)) or "no word for an object"
     thickness = plate_sizes.with_thickness(item.size_m)[2]
     assumed = (
@@ -103,7 +110,7 @@ def _unknown(item: Measured, reading: NameReading) -> ObjectAnswer:
 
 
 def _as_real(
-    item: Measured, reading: NameReading, row: ObjectRow, neighbour_names: Sequence[str], why_owner: str
+    item: ObjectFacts, reading: NameReading, row: ObjectRow, neighbour_names: Sequence[str], why_owner: str
 ) -> ObjectAnswer:
     material, thickness_m = make(reading, row, item.scene_category, item.material_names)
     thickness, size_reason = _thickness(item, thickness_m, row.noun)
@@ -111,14 +118,14 @@ def _as_real(
     if row.max_size_m is not None and max(item.size_m) > _GIANT * row.max_size_m:
         confidence *= _GIANT_TRUST
         size_reason += f" A real {row.noun} is at most {row.max_size_m:g} m long: check the scene's unit."
-    fitting = fit(reading, row, item.size_m, item.flags, item.height_m, neighbour_names)
+    checked = check_name(reading, row, item.size_m, item.flags, item.height_m, neighbour_names)
     states, vibration_reason = _states(row, neighbour_names, reading)
-    if fitting.part_of:
-        states, vibration_reason = [], f"it is shaken by the {fitting.part_of} that it is a part of."
+    if checked.part_of:
+        states, vibration_reason = [], f"it is shaken by the {checked.part_of} that it is a part of."
     return ObjectAnswer(
         object_category=row.noun,
         category_reason=_cut(
-            " ".join(filter(None, (_category_reason(item.name, reading, row), why_owner, *fitting.doubts)))
+            " ".join(filter(None, (_category_reason(item.name, reading, row), why_owner, *checked.doubts)))
         ),
         material_category=material,
         estimated_length_m=item.size_m[0],
@@ -129,13 +136,13 @@ def _as_real(
         vibrates=bool(states),
         vibration_reason=vibration_reason,
         states=states,
-        confidence=round(confidence * fitting.trust, 3),
-        estimated_mass_kg=None if fitting.part_of else usual_mass_kg(row, item.whole_m),
-        feet_material=None if fitting.part_of else row.feet,
+        confidence=round(confidence * checked.trust, 3),
+        estimated_mass_kg=None if checked.part_of else usual_mass_kg(row, item.whole_m),
+        feet_material=None if checked.part_of else row.feet,
     )
 
 
-def _as_miniature(item: Measured, reading: NameReading, row: ObjectRow, why: str) -> ObjectAnswer:
+def _as_miniature(item: ObjectFacts, reading: NameReading, row: ObjectRow, why: str) -> ObjectAnswer:
     category = f"{'toy' if row.role == 'vehicle' else 'miniature'} {row.noun}"
     thickness, size_reason = _thickness(item, _MINIATURE_THICKNESS_M, category)
     return ObjectAnswer(
@@ -182,7 +189,7 @@ def _cut(reason: str) -> str:
     return reason if len(reason) <= LONGEST_REASON else f"{reason[: LONGEST_REASON - 3]}..."
 
 
-def _thickness(item: Measured, plausible_m: float, category: str) -> tuple[float, str]:
+def _thickness(item: ObjectFacts, plausible_m: float, category: str) -> tuple[float, str]:
     measured = item.size_m[2]
     if measured >= _THINNEST_M and "zero-thickness" not in item.flags:
         return measured, "as measured."

@@ -79,7 +79,7 @@ _TOO_HIGH, _TOO_SHORT, _TOO_THIN, _TOO_SLENDER, _PART, _BESIDE_SAME, _OWNER = 0.
 
 
 @dataclass(frozen=True)
-class Fit:
+class NameCheck:
     """The agreement of a reading with measurements: confidence factor, reasons, and the machine it belongs to."""
 
     trust: float = 1.0
@@ -176,14 +176,14 @@ def _before_head(reading: NameReading) -> NameReading:
     return read_name(" ".join(said[: starts[-1]]))
 
 
-def fit(
+def check_name(
     reading: NameReading,
     row: ObjectRow,
     size_m: tuple[float, float, float],
     flags: Sequence[str],
     height_m: float | None,
     neighbour_names: Sequence[str],
-) -> Fit:
+) -> NameCheck:
     """Compare a reading with size, height above the lowest object [m] (None if unknown) and neighbours."""
     beside = [other.row for other in map(read_name, neighbour_names) if other.row is not None and not other.toy]
     found = [*_by_height(row, height_m, beside), *_by_size(row, size_m, flags), *_by_name(reading, row)]
@@ -195,7 +195,7 @@ def fit(
     trust = 1.0
     for factor, _ in found:
         trust *= factor
-    return Fit(trust, tuple(why for _, why in found), part_of)
+    return NameCheck(trust, tuple(why for _, why in found), part_of)
 
 
 def _by_height(row: ObjectRow, height_m: float | None, beside: Sequence[ObjectRow]) -> list[tuple[float, str]]:

@@ -49,7 +49,7 @@ class BoxMotions:
 
     def __init__(self, body: RigidMotion) -> None:
         assert body.mass_distribution is not None
-        self._mass_kg, self._mass_distribution = body.mass_kg, body.mass_distribution
+        self._mass_distribution = body.mass_distribution
         x, y, z = body.mass_distribution.squares_m2
         self._roots = np.sqrt(body.mass_kg * np.array([1.0, 1.0, 1.0, y + z, x + z, x + y]))
         self.squares: NDArray[np.float64] = np.zeros(6)

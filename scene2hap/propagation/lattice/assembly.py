@@ -32,7 +32,7 @@ class Pattern:
     """
 
     def __init__(self, number: Ints, local: Ints, place: Ints) -> None:
-        self._number, self._place = number, place
+        self._place = place
         copy = copies_of(place)
         self._n_copies = int(copy.max(initial=0)) + 1
         self._copy = copy[number] if self._n_copies > 1 else None

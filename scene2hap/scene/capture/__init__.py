@@ -22,7 +22,7 @@ from scene2hap.common.calls import clear_call
 from scene2hap.errors import ConfigError
 from scene2hap.plugins import PluginGroup
 from scene2hap.scene.arguments import given_scene
-from scene2hap.scene.capture.batch import capture_stats, render_all
+from scene2hap.scene.capture.batch import render_all
 from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.isolated_objects import SUBJECT, by_itself
 from scene2hap.scene.capture.lazy_pictures import CaptureStats, LazyPictures
@@ -44,7 +44,6 @@ __all__ = [
     "RendererFactory",
     "Selection",
     "capture_images",
-    "capture_stats",
     "contact_sheet",
     "plan_view",
     "render_all",

@@ -55,14 +55,6 @@ def render_all(scene: SceneSnapshot, workers: int | None = None, *, progress: Pr
     return pictures.stats
 
 
-def capture_stats(scene: SceneSnapshot) -> CaptureStats:
-    """Return the progress of the capture of a scene.
-
-    Raises: ConfigError: the scene was not captured.
-    """
-    return _lazy_pictures(scene).stats
-
-
 def _lazy_pictures(scene: SceneSnapshot) -> LazyPictures:
     source = None if scene.images is None else scene.images.source
     if not isinstance(source, LazyPictures):

@@ -35,7 +35,7 @@ def read_stl_ply(data: bytes, file_type: str, name: str) -> AuthoredScene:
     if file_type == "stl":
         data = _as_one_solid(data, name)
     try:
-        with _silent_log("trimesh"), warnings.catch_warnings(), np.errstate(all="ignore"):
+        with _silent_log(), warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
             # No resolver: these formats need no other file, so none is opened.
             scene = trimesh.load_scene(io.BytesIO(data), file_type=file_type, process=False)
@@ -90,9 +90,9 @@ def _appearance(mesh: Any) -> Appearance | None:
 
 
 @contextmanager
-def _silent_log(name: str) -> Iterator[None]:
-    """Silence a package's logs; our own error states the cause."""
-    log, handler = logging.getLogger(name), logging.NullHandler()
+def _silent_log() -> Iterator[None]:
+    """Silence trimesh's logs; our own error states the cause."""
+    log, handler = logging.getLogger("trimesh"), logging.NullHandler()
     propagated = log.propagate
     log.addHandler(handler)
     log.propagate = False

@@ -194,10 +194,6 @@ class Outline:
         ends = [np.roll(np.array(ring), -1, axis=0) for ring in self.rings_m]
         return np.concatenate(self.rings_m), np.concatenate(ends)
 
-    def coverage(self, x_m: Floats, y_m: Floats) -> Floats:
-        """Return the share (nx, ny), 0..1, of each pixel that is inside the area; see `covered`."""
-        return self.covered(x_m, y_m)[0]
-
     def covered(self, x_m: Floats, y_m: Floats) -> tuple[Floats, Floats]:
         """Return the share (nx, ny), 0..1, of each pixel that is inside the area, and the centroid of that part.
 

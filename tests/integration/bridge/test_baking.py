@@ -13,10 +13,10 @@ import pytest
 from PIL import Image
 
 from bridge_client import Client, Refused
+from bridge_frames import encode_picture
 from llm_server import GOOD, Asked, Scripted, said, serving as serving_model
 from scene2hap import HapticBundle
 from scene2hap.bridge import BridgeServer
-from scene2hap.bridge.frames import encode_picture
 from scene2hap.bridge.jobs import MAX_RUNNING, Jobs
 from serial_bench import eventually
 

@@ -386,7 +386,7 @@ def test_frames_by_udp(bridge: Bridge) -> None:
         datagrams.settimeout(60)
         datagrams.sendto(b"S2HB not of any session", ("127.0.0.1", port))
         datagrams.sendto(client.frame(1, 0.0, poses("phone"), [ON_TABLE]), ("127.0.0.1", port))
-        from scene2hap.bridge.frames import decode_gains
+        from bridge_frames import decode_gains
 
         found = decode_gains(datagrams.recv(1 << 16))
         assert found.sequence == 1
@@ -410,7 +410,7 @@ def test_an_overtaken_datagram_does_not_replace_a_newer_frame(bridge: Bridge, mo
         assert hosted is not None
         assert eventually(lambda: hosted.played.n_outdated == 2)
         may_go_on.set()
-        from scene2hap.bridge.frames import decode_gains
+        from bridge_frames import decode_gains
 
         assert [decode_gains(datagrams.recv(1 << 16)).sequence for _ in range(2)] == [1, 3]
         assert client.ask("stats")["frames"] == {"received": 4, "skipped": 0, "outdated": 2}

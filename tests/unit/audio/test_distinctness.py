@@ -1,11 +1,17 @@
 from __future__ import annotations
 
 import math
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from scene2hap.audio.distinctness import Percept, difference, distinctness, frequency_jnds, percept_of
+sys.path.insert(0, str(Path(__file__).parents[3] / "benchmarks"))
+
+from percepts import Percept, difference, distinctness, percept_of
+
+from scene2hap.audio.distinctness import frequency_jnds
 from scene2hap.errors import AudioError
 
 RATE = 8000

@@ -114,8 +114,6 @@ def test_choice_lists_origin_and_scores_of_each_candidate() -> None:
     assert choice.rows[0].frequency_raw_hz == pytest.approx(100.0, abs=0.01)
     assert choice.rows[0].frequency_tactile_hz == pytest.approx(100.0, abs=0.01)
     assert choice.rows[2].frequency_raw_hz is None
-    assert choice.dynamic_range_limit_db == 5.0
-    assert choice.flatness_band_hz == (20.0, 7000.0)
 
 
 def test_a_printed_choice_escapes_names_of_files() -> None:

@@ -12,8 +12,8 @@ from typing import Any, cast
 
 from PIL import Image
 
+from bridge_frames import encode_picture
 from scene2hap.bridge.connection import Connection
-from scene2hap.bridge.frames import encode_picture
 
 
 class ClosedSocket:

@@ -7,8 +7,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import pytest
 
+from bridge_frames import encode_frame
 from scene2hap import HapticSession, MemorySink
-from scene2hap.bridge.frames import Frame, decode_frame, encode_frame
+from scene2hap.bridge.frames import Frame, decode_frame
 from scene2hap.bridge.played_session import LONGEST_FRAME_S, PlayedSession
 from scene2hap.errors import SessionError
 from scenes import table_with_two_phones

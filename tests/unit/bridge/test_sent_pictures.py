@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from scene2hap.bridge.frames import encode_picture
+from bridge_frames import encode_picture
 from scene2hap.bridge.pictures import SentPictures
 from scene2hap.errors import BridgeError
 from scene2hap.scene.capture.given_pictures import INDEX

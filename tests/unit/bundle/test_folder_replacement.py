@@ -11,9 +11,10 @@ import pytest
 
 from files_of import files_of
 from scene2hap import HapticBundle
-from scene2hap.bundle import folder_replacement, read_overrides, require_replaceable, save_stamp
+from scene2hap.bundle import folder_replacement
 from scene2hap.bundle.checking import BundleWarning
-from scene2hap.bundle.folder import write_bundle
+from scene2hap.bundle.folder import read_overrides, write_bundle
+from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
 from scene2hap.bundle.folder_swap import exchange
 from scene2hap.errors import BundleChanged, BundleError, BundleIncomplete, BundleVersionError
 from scenes import table_with_two_phones

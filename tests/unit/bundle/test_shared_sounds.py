@@ -14,7 +14,7 @@ from files_of import files_of
 from scene2hap import AudioClip, HapticBundle
 from scene2hap.audio.conversion import convert
 from scene2hap.audio.files import read_clip, write_wav
-from scene2hap.bundle import file_stems
+from scene2hap.bundle.sounds import file_stems
 from scene2hap.errors import BundleError
 from scene2hap.export import export_bundle
 from scenes import RATE, box, haptics, scene, tone_loop

@@ -4,8 +4,9 @@ import logging
 
 import pytest
 
+from scene2hap.common.checks import MASK
 from scene2hap.common.quiet_logs import scrubbed
-from scene2hap.common.secret import MASK, Secret
+from scene2hap.common.secret import Secret
 
 KEY = "sk-0123456789abcdefghij"
 

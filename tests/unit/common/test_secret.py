@@ -24,7 +24,9 @@ from scene2hap import (
 )
 from scene2hap.audio.sources.freesound import Freesound
 from scene2hap.audio.sources.text_to_audio import TextToAudio
-from scene2hap.common.secret import MASK, Secret
+from scene2hap.common import checks
+from scene2hap.common.checks import MASK
+from scene2hap.common.secret import Secret
 from scene2hap.errors import CallError, ConfigError, Scene2HapError
 
 KEY = "sk-0123456789abcdef"
@@ -178,3 +180,13 @@ def test_invalid_key_is_not_in_local_variables_of_the_traceback() -> None:
     within = caught.value.__traceback__.tb_next
     shown = traceback.TracebackException(ConfigError, caught.value, within, capture_locals=True)
     assert KEY not in "".join(shown.format())
+
+
+@pytest.mark.parametrize("name", ["token", "api_keys", "Password", "credentials"])
+def test_a_setting_that_may_be_a_key_has_the_same_mask(name: str) -> None:
+    assert checks.shown("hunter2", name) == checks.shown({name: "hunter2"})[len(repr(name)) + 3 : -1] == "'******'"
+
+
+def test_credentials_and_queries_of_an_address_have_the_same_mask() -> None:
+    assert checks.shown("https://me:pw@host/x") == "'https://******@host/x'"
+    assert checks.shown("https://host/x?token=abc") == "'https://host/x?******'"

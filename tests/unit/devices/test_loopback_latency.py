@@ -10,7 +10,14 @@ from numpy.typing import NDArray
 from scipy.signal import butter, chirp, sosfilt
 
 from scene2hap.devices import loopback_latency
-from scene2hap.devices.loopback_latency import FOUND_FROM, LONGEST_S, Take, arrival, find, find_input
+from scene2hap.devices.loopback_latency import (
+    FOUND_FROM,
+    LONGEST_S,
+    Recording,
+    correlation_peak,
+    find_input,
+    measure_latency,
+)
 from scene2hap.devices.portaudio import Card
 from scene2hap.errors import DeviceNotFound
 
@@ -30,13 +37,13 @@ def placed(frame: int, gain: float, n: int) -> NDArray[np.float64]:
     return x
 
 
-def take(*channels: NDArray[np.float64], block: int = 40, burst: int = 1, lost: int = 0) -> Take:
+def take(*channels: NDArray[np.float64], block: int = 40, burst: int = 1, lost: int = 0) -> Recording:
     """A recording of blocks from 99.5 s on, delivered `burst` at a time; `lost` frames are missing after a second."""
     samples = np.stack(channels, axis=1).astype(np.float32)
     n_heard = np.arange(block, len(samples) + 1, block)
     at_s = 99.5 + (n_heard + np.where(n_heard > RATE, lost, 0)) / RATE
     last_of_burst = np.minimum(np.arange(len(n_heard)) // burst * burst + burst, len(n_heard)) - 1
-    return Take("line", RATE, samples[: n_heard[-1]], at_s[last_of_burst], n_heard, block / RATE)
+    return Recording("line", RATE, samples[: n_heard[-1]], at_s[last_of_burst], n_heard, block / RATE)
 
 
 @settings(max_examples=60)
@@ -51,7 +58,7 @@ def test_sweep_gives_delay_level_and_polarity_of_a_quiet_line(
     frame: int, gain: float, sign: float, offset: float, seed: int
 ) -> None:
     quiet = noise(12000, 0.02 * gain * POWER**0.5, seed)
-    match = find(placed(frame, sign * gain, 12000) + quiet, SWEEP)
+    match = correlation_peak(placed(frame, sign * gain, 12000) + quiet, SWEEP)
     assert match.frame == frame
     assert match.correlation == pytest.approx(sign, abs=2e-3)
     assert match.gain == pytest.approx(gain, rel=1e-2)
@@ -61,7 +68,7 @@ def test_sweep_gives_delay_level_and_polarity_of_a_quiet_line(
 @given(frame=st.integers(0, 4000), seed=st.integers(0, 2**32 - 1))
 def test_sweep_is_found_under_louder_noise(frame: int, seed: int) -> None:
     """White noise of four times the sweep's power gives a correlation of 1 / sqrt(1 + 4)."""
-    match = find(placed(frame, 1.0, 12000) + noise(12000, 2.0 * POWER**0.5, seed), SWEEP)
+    match = correlation_peak(placed(frame, 1.0, 12000) + noise(12000, 2.0 * POWER**0.5, seed), SWEEP)
     assert abs(match.frame - frame) <= 2
     assert match.correlation == pytest.approx(5**-0.5, abs=0.06)
 
@@ -71,7 +78,7 @@ def test_sweep_is_found_under_louder_noise(frame: int, seed: int) -> None:
     p=st.lists(st.integers(-9, 9), min_size=1, max_size=8).filter(any),
 )
 def test_find_returns_the_largest_of_all_correlations(x: list[int], p: list[int]) -> None:
-    match = find(np.array(x, dtype=float), np.array(p, dtype=float))
+    match = correlation_peak(np.array(x, dtype=float), np.array(p, dtype=float))
     assert -1.0 <= match.correlation <= 1.0
     pieces = [np.array(x[k : k + len(p)]) for k in range(len(x) - len(p) + 1)]
     own = np.linalg.norm(p)
@@ -84,20 +91,24 @@ def test_find_returns_the_largest_of_all_correlations(x: list[int], p: list[int]
 @pytest.mark.parametrize("seed", range(8))
 def test_noise_in_the_band_of_the_sweep_is_not_detected(seed: int) -> None:
     band = sosfilt(butter(4, (40, 400), "bandpass", fs=RATE, output="sos"), noise(12000, 1.0, seed))
-    assert abs(find(band, SWEEP).correlation) < 0.15 < FOUND_FROM
+    assert abs(correlation_peak(band, SWEEP).correlation) < 0.15 < FOUND_FROM
 
 
 @pytest.mark.parametrize("hz", [50.0, 60.0, 100.0, 120.0])
 def test_hum_is_not_detected_as_a_sweep(hz: float) -> None:
     hum = np.sin(2 * np.pi * hz * np.arange(12000) / RATE)
-    assert abs(find(hum, SWEEP).correlation) < 0.1 < FOUND_FROM
+    assert abs(correlation_peak(hum, SWEEP).correlation) < 0.1 < FOUND_FROM
 
 
 def test_silence_and_short_recordings_contain_no_sweep() -> None:
-    assert find(np.zeros(12000), SWEEP) == find(SWEEP[:-1], SWEEP) == loopback_latency.Match(0, 0.0, 0.0)
+    assert (
+        correlation_peak(np.zeros(12000), SWEEP)
+        == correlation_peak(SWEEP[:-1], SWEEP)
+        == loopback_latency.CorrelationPeak(0, 0.0, 0.0)
+    )
     after_a_click = np.zeros(20000)
     after_a_click[:100] = 1.0
-    assert abs(find(after_a_click, SWEEP).correlation) < FOUND_FROM
+    assert abs(correlation_peak(after_a_click, SWEEP).correlation) < FOUND_FROM
 
 
 @pytest.mark.parametrize("burst", [1, 3, 20])
@@ -122,7 +133,7 @@ def test_clock_converts_a_time_to_its_frame() -> None:
 def test_arrival_is_measured_on_the_clock_of_the_request(delay: int, block: int, seed: int) -> None:
     asked = RATE // 2
     heard = placed(asked + delay, -0.5, 20000) + noise(20000, 1e-4, seed)
-    found = arrival(take(noise(20000, 1e-3, seed + 1), heard, block=block, burst=5), ASKED_AT_S, SWEEP)
+    found = measure_latency(take(noise(20000, 1e-3, seed + 1), heard, block=block, burst=5), ASKED_AT_S, SWEEP)
     assert found.latency_s is not None
     # The last block of each burst is on time.
     assert found.latency_s == pytest.approx(delay / RATE, abs=1e-6)
@@ -135,7 +146,7 @@ def test_arrival_is_measured_on_the_clock_of_the_request(delay: int, block: int,
 def test_sweeps_outside_the_search_window_are_ignored() -> None:
     early, late = placed(0, 1.0, 40000), placed(2000 + round((LONGEST_S + 0.5) * RATE), 1.0, 40000)
     for other in (early, late, np.zeros(40000)):
-        found = arrival(take(other + noise(40000, 1e-6, 3)), ASKED_AT_S, SWEEP)
+        found = measure_latency(take(other + noise(40000, 1e-6, 3)), ASKED_AT_S, SWEEP)
         assert found.latency_s is None
         assert found.gain_db is None
         assert abs(found.correlation) < FOUND_FROM
@@ -144,7 +155,7 @@ def test_sweeps_outside_the_search_window_are_ignored() -> None:
 def test_sweeps_of_several_hands_are_distinguished_on_one_wire() -> None:
     both = placed(2000 + 400, 1.0, 40000) + placed(12000 + 480, 1.0, 40000)
     heard = take(both)
-    left, right = (arrival(heard, at_s, SWEEP).latency_s for at_s in (ASKED_AT_S, ASKED_AT_S + 2.5))
+    left, right = (measure_latency(heard, at_s, SWEEP).latency_s for at_s in (ASKED_AT_S, ASKED_AT_S + 2.5))
     assert (left, right) == pytest.approx((0.1, 0.12))
 
 

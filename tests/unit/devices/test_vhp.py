@@ -24,25 +24,12 @@ def test_sleeve_packets_equal_those_worked_by_hand() -> None:
     assert packet == bytes([200, 3, 17, 96, *[128] * 96, *[0] * 32])
     amplifiers = vhp.packet(vhp.Message(vhp.MessageType.ENABLE_AMPLIFIERS, recipient=vhp.Recipient.ALL))
     assert amplifiers == bytes([200, 1, 15, 0, *[0] * 128])
-    assert vhp.from_packet(amplifiers) == vhp.Message(15, b"", 1)
-
-
-@given(st.binary(max_size=128), st.integers(0, 255), st.sampled_from(vhp.Recipient))
-def test_messages_round_trip(payload: bytes, type: int, recipient: vhp.Recipient) -> None:
-    wired = vhp.Message(type, payload, recipient)
-    assert vhp.from_packet(vhp.packet(wired)) == wired
 
 
 @given(st.lists(st.integers(-127, 127), min_size=96, max_size=96))
-def test_samples_round_trip(levels: list[int]) -> None:
+def test_a_sample_is_its_level_about_the_middle(levels: list[int]) -> None:
     block = (np.array(levels).reshape(8, 12) / 127).astype(np.float32)
-    np.testing.assert_allclose(vhp.from_bytes(vhp.to_bytes(block)), block, atol=1e-7)
-
-
-@given(st.binary(max_size=140))
-def test_decoders_accept_arbitrary_bytes_without_raising(data: bytes) -> None:
-    vhp.from_packet(data)
-    vhp.from_packet((b"\xc8" + data).ljust(132, b"\0")[:132])
+    assert vhp.to_bytes(block) == bytes(128 + level for level in levels)
 
 
 def test_blocks_and_messages_of_wrong_size_are_refused() -> None:
@@ -51,8 +38,6 @@ def test_blocks_and_messages_of_wrong_size_are_refused() -> None:
             vhp.to_bytes(np.zeros(shape, dtype=np.float32))
     with pytest.raises(DeviceError, match="at most 128"):
         vhp.Message(1, b"x" * 129)
-    with pytest.raises(DeviceError, match="96 bytes"):
-        vhp.from_bytes(b"abc")
 
 
 def test_a_board_that_was_never_reached_is_left_without_an_error() -> None:

@@ -128,20 +128,6 @@ def test_world_bounds_turn_with_the_object() -> None:
     np.testing.assert_allclose(item.bounds_m, [[8.0, -0.5, -1.0], [12.0, 0.5, 1.0]], atol=1e-12)
 
 
-def test_plate_coordinates_run_from_the_corner_and_stop_at_the_edges() -> None:
-    # The plate of `box` has its corner at (-x/2, 0, z/2), length along x and width along -z.
-    table = box("table", (1.6, 0.02, 0.8), (10.0, 0.7, 5.0))
-    inside, above, beside = table.plate_coordinates([[10.3, 0.7, 5.1], [10.3, 2.0, 5.1], [12.0, 0.7, 4.0]])
-    np.testing.assert_allclose(inside, [1.1, 0.3], atol=1e-12)
-    np.testing.assert_allclose(above, inside, atol=1e-12)
-    np.testing.assert_allclose(beside, [1.6, 0.8], atol=1e-12)
-
-
-def test_plate_coordinates_take_a_single_point() -> None:
-    table = box("table", (1.6, 0.02, 0.8), (0.0, 0.0, 0.0))
-    np.testing.assert_allclose(table.plate_coordinates([0.0, 0.0, 0.0]), [[0.8, 0.4]], atol=1e-12)
-
-
 def test_size_is_that_of_the_surface() -> None:
     assert box("table", (1.6, 0.02, 0.8), (0, 0, 0)).size_m == (1.6, 0.8, 0.02)
 

@@ -137,7 +137,7 @@ class Service:
         if reply.status == 429 and "day" in said:
             return BackendUnavailable(f"{text} Bake again tomorrow; what was found is kept.", retryable=False)
         if reply.status == 429:
-            wait_s = _seconds(reply.headers.get("retry-after", ""), MINUTE_S)
+            wait_s = _wait_s(reply.headers.get("retry-after", ""))
             return BackendUnavailable(text, retryable=wait_s <= _LONGEST_WAIT_S, retry_after_s=wait_s)
         if reply.status == 400:
             return _NotUnderstood(text, retryable=False)
@@ -157,5 +157,5 @@ class Service:
         self._failure = (self.clock() + rest_s, failure)
 
 
-def _seconds(text: str, otherwise: float) -> float:
-    return float(text) if text.isascii() and text.isdigit() else otherwise
+def _wait_s(retry_after: str) -> float:
+    return float(retry_after) if retry_after.isascii() and retry_after.isdigit() else MINUTE_S

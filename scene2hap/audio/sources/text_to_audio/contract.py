@@ -26,6 +26,7 @@ VERSION = 1
 REPLY_NAME = "reply.json"
 
 _MAX_REPLY_BYTES = 1_000_000
+_MAX_FILE_BYTES = 100_000_000
 
 
 @dataclass(frozen=True)
@@ -87,15 +88,15 @@ def read_reply(folder: Path, scrub: Callable[[str], str] = str) -> Reply:
     return reply
 
 
-def read_file(folder: Path, name: str, max_bytes: int) -> bytes:
+def read_file(folder: Path, name: str) -> bytes:
     """Return the content of a file that a reply names.
 
-    Raises: BadAnswer: the name leads out of the folder, or there is no plain file of at most `max_bytes`.
+    Raises: BadAnswer: the name leads out of the folder, or there is no plain file of at most 100 MB.
     """
     if Path(name).name != name or name in (".", "..") or "\\" in name:
         raise BadAnswer(f"the generator names the file {name!r}; it must be a plain name in the reply's folder.", name)
     try:
-        return _content(folder / name, max_bytes)
+        return _content(folder / name, _MAX_FILE_BYTES)
     except OSError as cause:
         raise BadAnswer(f"the generator's file {name!r} cannot be read: {reason_of(cause)}.", name) from cause
 

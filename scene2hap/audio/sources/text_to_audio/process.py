@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -18,8 +17,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from scene2hap.audio.sources.disk_cache import plain_line
+from scene2hap.common.checks import SECRET_NAME
 from scene2hap.common.key_search import masked
-from scene2hap.common.secret import MASK
 from scene2hap.errors import BackendUnavailable
 
 MAX_FILES = 1000
@@ -29,7 +28,6 @@ _POLL_S = 0.05
 _TAIL_BYTES = 2000
 _SHOWN = 400
 _SHORTEST_SCRUBBED = 8
-_SECRET_NAME = re.compile(r"(key|token|secret|password|credentials?)s?$", re.IGNORECASE)
 
 
 class CannotStart(BackendUnavailable):
@@ -47,14 +45,14 @@ class ProgramLimits:
 def environment(kept: Iterable[str], variables: Mapping[str, str]) -> dict[str, str]:
     """Return the variables whose names are `kept`, or do not end in key, token, secret, password or credential."""
     named = set(kept)
-    return {name: value for name, value in variables.items() if name in named or not _SECRET_NAME.search(name)}
+    return {name: value for name, value in variables.items() if name in named or not SECRET_NAME.search(name)}
 
 
 def scrubbed(text: str, variables: Mapping[str, str]) -> str:
     """Return a text in which the keys among the program's variables are masked."""
     for name, value in variables.items():
-        if _SECRET_NAME.search(name) and len(value) >= _SHORTEST_SCRUBBED:
-            text = masked(text, value, MASK)
+        if SECRET_NAME.search(name) and len(value) >= _SHORTEST_SCRUBBED:
+            text = masked(text, value)
     return text
 
 

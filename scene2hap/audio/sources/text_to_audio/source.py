@@ -32,7 +32,6 @@ RUNNERS = ("audiogen", "stable_audio")
 _RUNNER_FOLDER = Path(__file__).parents[1] / "runners"
 _PATIENCE = 2
 """Failures in a row after which the program is not started again."""
-_MAX_FILE_BYTES = 100_000_000
 _ENTRY = "takes.json"
 _ORIGIN = "text_to_audio"
 
@@ -137,7 +136,7 @@ class TextToAudio:
         for index, name in enumerate(reply.files[: request.count]):
             suffix = Path(name).suffix if Path(name).suffix in SUFFIXES else ".wav"
             try:
-                content = read_file(folder, name, _MAX_FILE_BYTES)
+                content = read_file(folder, name)
                 clips.append(self._store.keep_clip(f"{key}/{index}{suffix}", content, _credit(request, reply, index)))
             except (AudioError, BadAnswer) as cause:
                 warn_of(f"skipped take {index + 1}: {cause}", UnusableTake)

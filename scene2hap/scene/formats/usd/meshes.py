@@ -22,7 +22,7 @@ from scene2hap.common.arrays import Floats
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits, solids
 from scene2hap.scene.formats.polygons import triangulated
-from scene2hap.scene.formats.usd.values import floats, integers, positive, value
+from scene2hap.scene.formats.usd.values import integers, positive, value, vectors
 
 Ints = NDArray[np.int64]
 
@@ -69,7 +69,7 @@ def mesh_triangles(mesh: Any, place: str, numbers: limits.Budget) -> Triangles:
     """
     counts, indices = integers(mesh.GetFaceVertexCountsAttr()), integers(mesh.GetFaceVertexIndicesAttr())
     numbers.spend(len(counts) + len(indices), place)
-    points = floats(mesh.GetPointsAttr(), 3)
+    points = vectors(mesh.GetPointsAttr())
     numbers.spend(points.size, place)
     if counts.min(initial=0) < 0 or counts.sum() != len(indices):
         raise SceneFormatError(

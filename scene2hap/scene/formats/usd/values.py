@@ -47,9 +47,9 @@ def value(attribute: Any) -> Any:
     return attribute.Get(rest_time((attribute,))) if attribute else None
 
 
-def floats(attribute: Any, columns: int) -> NDArray[np.float64]:
-    """Return an array attribute as (n, columns) float64; empty if it holds nothing."""
-    return np.array(value(attribute) or (), dtype=np.float64).reshape(-1, columns)
+def vectors(attribute: Any) -> NDArray[np.float64]:
+    """Return an array attribute as (n, 3) float64; empty if it holds nothing."""
+    return np.array(value(attribute) or (), dtype=np.float64).reshape(-1, 3)
 
 
 def integers(attribute: Any) -> NDArray[np.int64]:

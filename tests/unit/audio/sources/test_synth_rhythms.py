@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.distinctness import percept_of
+from scene2hap.audio.distinctness import rhythm_hz
 from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.tactile import CONVERTERS
@@ -35,7 +35,7 @@ def test_tactile_loop_keeps_the_rhythm_of_its_machine(kind: str, verb: str, rate
     clip, converter = made(kind, verb, seed, 0.2), CONVERTERS.build("auto")
     (plan,) = plan_scene([SourceClip(clip, 0.2)], converter, ActuatorProfile())
     loop = felt_loop(clip, converter, plan).tactile
-    assert percept_of(loop.samples, loop.sample_rate_hz).envelope_hz == pytest.approx(rate_hz, rel=0.15)
+    assert rhythm_hz(loop.samples, loop.sample_rate_hz, 0.2) == pytest.approx(rate_hz, rel=0.15)
 
 
 def levels_db(clip: AudioClip) -> np.ndarray:

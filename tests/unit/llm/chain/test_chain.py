@@ -9,7 +9,7 @@ import pytest
 
 from scene2hap import LLMReply, LLMRequest, infer_haptics
 from scene2hap.llm.chain import infer_scene
-from scene2hap.llm.chain.questions import Slots
+from scene2hap.llm.chain.questions import ConcurrencyLimit
 from scene2hap.llm.prompts import VERSION
 from scene2hap.llm.wrappers import price_list
 from scripted_backend import SCENE, Scripted, run
@@ -60,9 +60,9 @@ def test_chain_reports_progress_per_object() -> None:
 
 def test_scenes_that_share_slots_keep_one_concurrency_limit() -> None:
     class Counting(Scripted):
-        """A backend with an attribute `slots` of its own, which is no limit of ours."""
+        """A backend with an attribute `limit` of its own, which is no limit of ours."""
 
-        running = most = slots = 0
+        running = most = limit = 0
 
         async def complete(self, request: LLMRequest) -> LLMReply:
             self.running += 1
@@ -71,14 +71,14 @@ def test_scenes_that_share_slots_keep_one_concurrency_limit() -> None:
             self.running -= 1
             return await super().complete(request)
 
-    async def two_scenes(slots: Slots | None) -> int:
+    async def two_scenes(limit: ConcurrencyLimit | None) -> int:
         backend = Counting()
-        backend.slots = 3
+        backend.limit = 3
         config = {"concurrency": 2}
-        await asyncio.gather(*(infer_scene(SCENE, backend, config=config, slots=slots) for _ in range(2)))
+        await asyncio.gather(*(infer_scene(SCENE, backend, config=config, limit=limit) for _ in range(2)))
         return backend.most
 
-    assert asyncio.run(two_scenes(Slots(1))) == 1
+    assert asyncio.run(two_scenes(ConcurrencyLimit(1))) == 1
     assert asyncio.run(two_scenes(None)) > 1
 
 

@@ -4,20 +4,20 @@ from typing import Any
 
 import pytest
 
-from scene2hap.llm.lexicon.categories import Measured, judge
+from scene2hap.llm.lexicon.categories import ObjectFacts, judge
 
 SURE = 0.9
 
 
 def confidence(name: str, size_m: tuple[float, float, float], *neighbours: str, **about: Any) -> float:
-    return judge(Measured(name, size_m, **about), neighbours).confidence
+    return judge(ObjectFacts(name, size_m, **about), neighbours).confidence
 
 
 def test_bench_on_a_cabinet_is_judged_with_low_confidence() -> None:
     size = (0.6, 0.5, 0.05)
     assert confidence("kitchen_bench", size, "floor", height_m=0.0) > SURE
     assert confidence("kitchen_bench", size, "base_cabinet", height_m=0.86) < 0.5
-    answer = judge(Measured("kitchen_bench", size, height_m=0.86), ["base_cabinet"])
+    answer = judge(ObjectFacts("kitchen_bench", size, height_m=0.86), ["base_cabinet"])
     assert "begins 0.86 m above the lowest thing here and touches cabinet" in answer.category_reason
 
 
@@ -45,7 +45,10 @@ def test_a_spray_arm_is_hardly_a_dishwasher(name: str) -> None:
 
 def test_inner_part_of_a_touching_machine_is_no_source() -> None:
     size = (0.3, 0.2, 0.1)
-    alone, inside = judge(Measured("dishwasher_pump", size)), judge(Measured("dishwasher_pump", size), ["dishwasher"])
+    alone, inside = (
+        judge(ObjectFacts("dishwasher_pump", size)),
+        judge(ObjectFacts("dishwasher_pump", size), ["dishwasher"]),
+    )
     assert alone.vibrates
     assert not inside.vibrates
     assert inside.confidence < 0.5
@@ -53,7 +56,7 @@ def test_inner_part_of_a_touching_machine_is_no_source() -> None:
 
 
 def test_burner_on_a_stove_vibrates() -> None:
-    assert judge(Measured("Burner 1", (0.17, 0.17, 0.02)), ["stove"]).vibrates
+    assert judge(ObjectFacts("Burner 1", (0.17, 0.17, 0.02)), ["stove"]).vibrates
 
 
 @pytest.mark.parametrize(
@@ -75,7 +78,7 @@ def test_burner_on_a_stove_vibrates() -> None:
 def test_an_object_too_thick_for_the_part_it_is_named_after_is_the_whole(
     name: str, whole_m: tuple[float, float, float], category: str
 ) -> None:
-    answer = judge(Measured(name, (0.4, 0.4, 0.05), whole_m=whole_m))
+    answer = judge(ObjectFacts(name, (0.4, 0.4, 0.05), whole_m=whole_m))
     assert answer.object_category == category
     parts = ("cushion", "door", "drawer", "lampshade", "sink")
     assert ("too thick for" in answer.category_reason) == (category not in parts)
@@ -94,7 +97,7 @@ def test_an_object_too_thick_for_the_part_it_is_named_after_is_the_whole(
 def test_a_wall_or_ceiling_too_short_to_be_one_is_the_place_of_the_object(
     name: str, length_m: float, category: str
 ) -> None:
-    answer = judge(Measured(name, (length_m, 0.3, 0.05)))
+    answer = judge(ObjectFacts(name, (length_m, 0.3, 0.05)))
     assert answer.object_category == category
     assert ("that word is its place" in answer.category_reason) == (category != "wall")
 
@@ -124,7 +127,7 @@ def test_a_wall_or_ceiling_too_short_to_be_one_is_the_place_of_the_object(
 def test_a_roof_or_vehicle_that_the_object_cannot_be_is_its_place(
     name: str, whole_m: tuple[float, float, float], category: str
 ) -> None:
-    assert judge(Measured(name, whole_m, whole_m=whole_m)).object_category == category
+    assert judge(ObjectFacts(name, whole_m, whole_m=whole_m)).object_category == category
 
 
 @pytest.mark.parametrize(
@@ -138,11 +141,11 @@ def test_a_roof_or_vehicle_that_the_object_cannot_be_is_its_place(
     ],
 )
 def test_a_part_is_of_its_owner_s_material_only_if_it_is_cut_from_the_same_sheet(name: str, material: str) -> None:
-    assert judge(Measured(name, (0.6, 0.4, 0.05))).material_category == material
+    assert judge(ObjectFacts(name, (0.6, 0.4, 0.05))).material_category == material
 
 
 def test_without_the_size_of_the_whole_the_name_decides() -> None:
-    assert judge(Measured("chairCushion", (0.4, 0.4, 0.05))).object_category == "cushion"
+    assert judge(ObjectFacts("chairCushion", (0.4, 0.4, 0.05))).object_category == "cushion"
 
 
 @pytest.mark.parametrize(
@@ -159,5 +162,5 @@ def test_without_the_size_of_the_whole_the_name_decides() -> None:
 def test_a_wide_plane_under_all_others_is_the_floor(
     name: str, whole_m: tuple[float, float, float], height_m: float, category: str
 ) -> None:
-    item = Measured(name, (whole_m[0], whole_m[1], 0.01), whole_m=whole_m, height_m=height_m)
+    item = ObjectFacts(name, (whole_m[0], whole_m[1], 0.01), whole_m=whole_m, height_m=height_m)
     assert judge(item).object_category == category

@@ -9,7 +9,7 @@ import pytest
 from others import SCENES, needed, there
 from rooms import ROOMS
 from scene2hap.demo import kitchen_path
-from scene2hap.llm.lexicon.categories import Measured, judge
+from scene2hap.llm.lexicon.categories import ObjectFacts, judge
 from scene2hap.llm.lexicon.names import read_name
 from scene2hap.llm.lexicon.places import kind_of_place
 
@@ -56,7 +56,7 @@ def top_level_names(relative: str) -> list[str]:
 
 
 def vibrates(name: str) -> bool:
-    return judge(Measured(name, BIG_ENOUGH), ["floor"]).vibrates
+    return judge(ObjectFacts(name, BIG_ENOUGH), ["floor"]).vibrates
 
 
 @pytest.mark.parametrize(

@@ -6,12 +6,14 @@ import pytest
 
 from scene2hap import LexiconBackend, SceneSnapshot, infer_haptics
 from scene2hap.llm.answers import ObjectAnswer
-from scene2hap.llm.lexicon.categories import Measured, judge
+from scene2hap.llm.lexicon.categories import ObjectFacts, judge
 from scripted_backend import Scripted, box, scene
 
 
 def in_chain(names: Sequence[str], n_in_series: int = 2) -> dict[str, ObjectAnswer]:
-    return {name: judge(Measured(name, (0.3, 0.1, 0.1), chain_names=names, n_in_series=n_in_series)) for name in names}
+    return {
+        name: judge(ObjectFacts(name, (0.3, 0.1, 0.1), chain_names=names, n_in_series=n_in_series)) for name in names
+    }
 
 
 # Names of models of metaworld, gymnasium-robotics and robosuite.
@@ -40,7 +42,7 @@ def test_a_link_that_its_chain_tells_has_a_lower_confidence_and_a_reason() -> No
     assert (
         answers["right_arm_base_link"].confidence
         > answers["right_l0"].confidence
-        > judge(Measured("right_l0", (0.3, 0.1, 0.1))).confidence
+        > judge(ObjectFacts("right_l0", (0.3, 0.1, 0.1))).confidence
     )
     assert answers["screen"].category_reason == (
         "the name 'screen' alone does not tell. Hinges join it with 'right_arm_base_link', so it is taken for a "
@@ -84,7 +86,7 @@ def test_other_chains_are_no_robots(names: list[str], unknown: str | None) -> No
         if name == unknown:
             assert answer.object_category == "unknown"
         else:
-            assert answer == judge(Measured(name, (0.3, 0.1, 0.1))), name
+            assert answer == judge(ObjectFacts(name, (0.3, 0.1, 0.1))), name
 
 
 def test_other_things_on_a_robot_stay_what_they_are() -> None:
@@ -92,7 +94,7 @@ def test_other_things_on_a_robot_stay_what_they_are() -> None:
     assert answers["wheel"].object_category == "wheel"
     assert answers["camera"].object_category == "camera"
     assert answers["robot_base_link"].object_category == "robot"
-    assert answers["plate_x"].object_category == judge(Measured("plate_x", (0.3, 0.1, 0.1))).object_category
+    assert answers["plate_x"].object_category == judge(ObjectFacts("plate_x", (0.3, 0.1, 0.1))).object_category
 
 
 def arm(*names: str) -> SceneSnapshot:

@@ -44,7 +44,7 @@ def test_pixel_coverage_sums_to_the_area(radii: list[float], nx: int, ny: int, b
     star = np.array(radii)[:, None] * np.column_stack([np.cos(turn), np.sin(turn)])
     outline = Outline(((star[::-1] if backwards else star).tolist(),))
     x0, y0, x1, y1 = outline.box_m
-    shares = outline.coverage(np.linspace(x0, x1, nx + 1), np.linspace(y0, y1, ny + 1))
+    shares, _ = outline.covered(np.linspace(x0, x1, nx + 1), np.linspace(y0, y1, ny + 1))
     assert ((shares >= 0) & (shares <= 1)).all()
     area = abs(float(star[:, 0] @ np.roll(star[:, 1], -1) - star[:, 1] @ np.roll(star[:, 0], -1))) / 2
     found = shares.sum() * (x1 - x0) * (y1 - y0) / (nx * ny)
