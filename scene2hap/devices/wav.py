@@ -24,8 +24,8 @@ class WavSink(PulledSink):
 
     It has no clock of its own: `pull` requests the next frames, `pull_s` the next seconds.
 
-    The file appears under its name when the sink is closed, at the latest when the program ends; a session whose
-    `with` block fails leaves none. Samples are integers: the header of a float file contains a time stamp, so equal
+    The file appears under its name when the sink is closed, at the latest when the program ends. Ctrl-C and
+    `sys.exit` close it too; a session whose `with` block fails by an error leaves none. Samples are integers: the header of a float file contains a time stamp, so equal
     runs would give different files.
     Raises: ConfigError: no path, or one with the suffix of another kind of file.
     """

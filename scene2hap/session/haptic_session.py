@@ -588,10 +588,12 @@ class HapticSession:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if error is None or isinstance(error, KeyboardInterrupt):  # Ctrl-C ends many games
-            self.stop()
-        else:
+        # Many games end by Ctrl-C, which asyncio turns into CancelledError, or by sys.exit, as Panda3D's closed window
+        # does. None of these is an Exception, and what was recorded is kept.
+        if isinstance(error, Exception):
             self._output.abort()
+        else:
+            self.stop()
 
     @property
     def sink(self) -> ActuatorSink | None:

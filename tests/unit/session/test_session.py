@@ -1,5 +1,6 @@
 """A session on a table with two phones."""
 
+import asyncio
 import math
 import os
 import subprocess
@@ -246,11 +247,12 @@ def test_a_run_that_fails_leaves_no_wav(tmp_path: object) -> None:
     assert not sink.path.exists()
 
 
-def test_a_game_that_is_interrupted_leaves_its_wav(tmp_path: object) -> None:
-    sink = WavSink(f"{tmp_path}/out.wav")
-    with pytest.raises(KeyboardInterrupt), HapticSession(*table_with_two_phones(), CONFIG, sink=sink):
+@pytest.mark.parametrize("end", [KeyboardInterrupt, SystemExit, asyncio.CancelledError, GeneratorExit])
+def test_a_game_that_is_ended_from_outside_leaves_its_wav(end: type[BaseException], tmp_path: Path) -> None:
+    sink = WavSink(tmp_path / "out.wav")
+    with pytest.raises(end), HapticSession(*table_with_two_phones(), CONFIG, sink=sink):
         sink.pull(10)
-        raise KeyboardInterrupt
+        raise end
     assert soundfile.info(sink.path).frames >= 10
 
 
