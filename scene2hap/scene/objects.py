@@ -190,6 +190,13 @@ class SceneObject:
             mass = checks.number(named, self.mass_kg, "kg", above=0.0, at_most=limits.MAX_MASS_KG, error=SceneError)
             object.__setattr__(self, "mass_kg", mass)
 
+    def __repr__(self) -> str:
+        """The object as it is written in code; measured and inferred fields are left out."""
+        shown: dict[str, object] = {} if self.name == self.id else {"name": self.name}
+        shown |= {"pose": self.pose, "geometry": self.geometry}
+        shown |= {key: value for key in ("mass_kg", "hinge") if (value := getattr(self, key)) is not None}
+        return f"SceneObject({', '.join([repr(self.id), *(f'{key}={value!r}' for key, value in shown.items())])})"
+
     @property
     def size_m(self) -> tuple[float, float, float]:
         """Length, width and thickness [m] of the dominant surface."""

@@ -167,7 +167,7 @@ class HapticSession:
 
     @property
     def poses(self) -> Mapping[str, Pose]:
-        """The present pose of every object, by id."""
+        """The present pose of every object, by id. Read-only; `dict(session.poses)` is a copy that can be pickled."""
         return self._state.poses
 
     @property

@@ -66,6 +66,9 @@ class ReplayBackend:
         self._entries = {entry.key: entry for entry in self._all if model in (None, entry.asked_model or entry.model)}
         self._played: set[str] = set()
 
+    def __repr__(self) -> str:
+        return f"ReplayBackend({str(self._path)!r}{'' if self._model is None else f', model={self._model!r}'})"
+
     @property
     def unused(self) -> tuple[str, ...]:
         """Keys of recorded answers that were not requested yet."""
