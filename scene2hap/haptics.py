@@ -110,8 +110,9 @@ class ObjectHaptics:
     vibrates: bool
     states: tuple[SourceState, ...] = ()
     confidence: float = 1.0
-    reasons: Mapping[str, str] = field(default_factory=dict)
-    provenance: Mapping[str, str] = field(default_factory=dict)
+    # Not shown: their paragraphs hide the other fields of an object at the prompt, and of a whole bundle even more.
+    reasons: Mapping[str, str] = field(default_factory=dict, repr=False)
+    provenance: Mapping[str, str] = field(default_factory=dict, repr=False)
     mass_kg: float | None = None
     feet: Material | None = None
 

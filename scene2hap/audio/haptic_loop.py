@@ -100,7 +100,7 @@ class HapticLoop:
     frequency_raw_hz: float
     frequency_tactile_hz: float
     source: AudioClip | None = None
-    fingerprint: Mapping[str, str] = field(default_factory=dict, hash=False)
+    fingerprint: Mapping[str, str] = field(default_factory=dict, hash=False, repr=False)
     felt: Sensation | None = None
     start_up: RunCurve | None = None
     wind_down: RunCurve | None = None

@@ -11,6 +11,7 @@ from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.sound import Progress, no_progress
 from scene2hap.bundle import BundleWarning, HapticBundle, Override
 from scene2hap.bundle.folder import read_bundle
+from scene2hap.bundle.pending_corrections import reason_of_name
 from scene2hap.common import checks
 from scene2hap.common.counted import counted
 from scene2hap.common.warning import warn_of
@@ -131,23 +132,7 @@ def _note_name(object_id: str, haptics: ObjectHaptics, name: str) -> ObjectHapti
             "vibration are inferred. Use a common noun, as 'washing machine', or infer it by a model (llm).",
             BundleWarning,
         )
-    return replace(haptics, reasons={**haptics.reasons, "name": _reason_of_name(name)})
-
-
-def _reason_of_name(name: str) -> str:
-    return f"a person calls it {name!r}."
-
-
-def renamed_objects(bundle: HapticBundle) -> list[str]:
-    """Return the ids of objects whose name a person gave or removed after they were inferred."""
-    names = {key: override.name for key, override in bundle.overrides.items()}
-    reasons = {key: None if name is None else _reason_of_name(name) for key, name in names.items()}
-    return [key for key, haptics in bundle.objects.items() if haptics.reasons.get("name") != reasons.get(key)]
-
-
-def objects_without_states(bundle: HapticBundle) -> list[str]:
-    """Return the ids of objects that a person wants to vibrate, and that do not yet."""
-    return [key for key, one in bundle.overrides.items() if one.vibrates and not bundle.objects[key].vibrates]
+    return replace(haptics, reasons={**haptics.reasons, "name": reason_of_name(name)})
 
 
 def replace_vibration(before: ObjectHaptics, inferred: ObjectHaptics) -> ObjectHaptics:

@@ -17,9 +17,7 @@ from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.corrections import (
     apply_overrides,
     infer_corrected,
-    objects_without_states,
     overrides_of_scene,
-    renamed_objects,
     replace_vibration,
 )
 from scene2hap.baking.fingerprint import converter_settings
@@ -33,6 +31,7 @@ from scene2hap.baking.recorded_times import with_recorded_times
 from scene2hap.baking.sound import EarlierLoops, Progress, Remade, Sounds, make_loops
 from scene2hap.bundle import HapticBundle, MadeWith, Override
 from scene2hap.bundle.arguments import given_bundle
+from scene2hap.bundle.pending_corrections import objects_without_states, renamed_objects
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
 from scene2hap.common.run_coroutine import run_waiting

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, cast
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
+from scene2hap.common.counted import counted
 from scene2hap.contact.finder import ContactFinder
 from scene2hap.contact.junction import ContactArrays, Junction, Pair, junctions_of, pair_of
 from scene2hap.contact.touch_finder import TouchFinder
@@ -90,6 +91,10 @@ class ContactGraph:
             self._replace({}, scene.objects)
         else:
             self._store(junctions_of(scene.contacts))
+
+    def __repr__(self) -> str:
+        counts = f"{counted(len(self._poses), 'object')}, {counted(len(self._junctions), 'pair')}"
+        return f"ContactGraph({counts} in contact)"
 
     @property
     def contacts(self) -> tuple[Contact, ...]:

@@ -128,6 +128,9 @@ class LiveSink:
         self._filter_s = 0.0
         self._idle = FrameClock(1)
 
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self._name})"
+
     def open(self, format: SinkFormat) -> None:
         """Prepare the sink and reset the counters. `start` connects to the device, which may be missing.
 

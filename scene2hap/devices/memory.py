@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from scene2hap.common.calls import clear_calls
+from scene2hap.common.counted import counted
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
 from scene2hap.devices.whole_frames import PulledSink, WholeFrames
 from scene2hap.errors import DeviceError
@@ -18,6 +19,10 @@ class MemorySink(PulledSink):
         self._format: SinkFormat | None = None
         self._fill: Fill | None = None
         self._blocks: list[Block] = []
+
+    def __repr__(self) -> str:
+        n_channels = len(self._format.channels) if self._format else 0
+        return f"MemorySink({counted(self.stats.frames, 'frame')} of {counted(n_channels, 'channel')})"
 
     def open(self, format: SinkFormat) -> None:
         """Prepare the sink, and discard stored samples."""

@@ -72,6 +72,9 @@ class TeeSink(PulledSink):
             if hasattr(sink, "on_event") and getattr(sink, "on_event", None) is None:
                 sink.on_event = self._pass_on
 
+    def __repr__(self) -> str:
+        return f"TeeSink({list(self.sinks)!r})"
+
     def open(self, format: SinkFormat) -> None:
         """Open all sinks. Raises: DeviceError: one cannot be opened; the others are closed again."""
         self._format = format

@@ -24,9 +24,9 @@ class WavSink(PulledSink):
 
     It has no clock of its own: `pull` requests the next frames, `pull_s` the next seconds.
 
-    The file appears under its name when the sink is closed, at the latest when the program ends; a session whose
-    `with` block fails leaves none. Samples are integers: the header of a float file contains a time stamp, so equal
-    runs would give different files.
+    The file appears under its name when the sink is closed, at the latest when the program ends. Ctrl-C and
+    `sys.exit` close it too; a session whose `with` block fails by an error leaves none. Samples are integers: the
+    header of a float file contains a time stamp, so equal runs would give different files.
     Raises: ConfigError: no path, or one with the suffix of another kind of file.
     """
 
@@ -45,6 +45,9 @@ class WavSink(PulledSink):
         self._fill: Fill | None = None
         self._key: Hashable = None
         self._frames = 0
+
+    def __repr__(self) -> str:
+        return f"WavSink({str(self.path)!r})"
 
     def open(self, format: SinkFormat) -> None:
         """Begin the file. Raises: DeviceError: it cannot be written, or another sink of this program writes it."""

@@ -47,6 +47,9 @@ class EngineLink:
         self._steps: list[Any] = []
         _require_same_scene(self._poses(), session)
 
+    def __repr__(self) -> str:
+        return f"{type(self).__name__} of {self._session!r}"
+
     def collect(self) -> None:
         """Keep the contacts of this step of the physics for the next `update`. Call it after each step of a frame.
 

@@ -13,6 +13,7 @@ from pydantic import InstanceOf
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
+from scene2hap.common.printable import writable
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.geometry import bounds_of, frozen
@@ -175,6 +176,11 @@ class SceneObject:
     def __post_init__(self) -> None:
         if not self.id:
             raise SceneError(f"object {checks.represented(self.name)} has an empty id; give every object its own.")
+        if writable(self.id) != self.id:  # the file of a bundle would have another id, and could not be read again
+            raise SceneError(
+                f"id is {checks.represented(self.id)}, with half of a character, as file names of another encoding "
+                f"have it; files hold none. Give another id, as {checks.represented(writable(self.id))}."
+            )
         height = checks.number("relative_height_m", self.relative_height_m, "m", error=SceneError)
         object.__setattr__(self, "relative_height_m", height)
         materials = checks.texts(f"material_names of object {self.id!r}", self.material_names, error=SceneError)
@@ -189,6 +195,13 @@ class SceneObject:
             named = f"mass_kg of object {checks.represented(self.id)}"
             mass = checks.number(named, self.mass_kg, "kg", above=0.0, at_most=limits.MAX_MASS_KG, error=SceneError)
             object.__setattr__(self, "mass_kg", mass)
+
+    def __repr__(self) -> str:
+        """The object as it is written in code; measured and inferred fields are left out."""
+        shown: dict[str, object] = {} if self.name == self.id else {"name": self.name}
+        shown |= {"pose": self.pose, "geometry": self.geometry}
+        shown |= {key: value for key in ("mass_kg", "hinge") if (value := getattr(self, key)) is not None}
+        return f"SceneObject({', '.join([repr(self.id), *(f'{key}={value!r}' for key, value in shown.items())])})"
 
     @property
     def size_m(self) -> tuple[float, float, float]:

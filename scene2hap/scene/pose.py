@@ -61,6 +61,10 @@ class Pose:
         object.__setattr__(self, "position_m", position)
         object.__setattr__(self, "rotation_xyzw", rotation)
 
+    def __repr__(self) -> str:
+        is_turned = self.rotation_xyzw != (0.0, 0.0, 0.0, 1.0)
+        return f"Pose({self.position_m}, {self.rotation_xyzw})" if is_turned else f"Pose({self.position_m})"
+
     @classmethod
     def of_checked(cls, position_m: tuple[float, float, float], rotation_xyzw: tuple[float, ...]) -> Pose:
         """Return a pose of checked numbers, such as those of a `PoseTable`: finite floats, a unit quaternion."""

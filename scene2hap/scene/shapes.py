@@ -55,6 +55,9 @@ class Box:
         size = checks.vector("size_m", self.size_m, "m", size=3, above=0.0, error=SceneError)
         object.__setattr__(self, "size_m", size)
 
+    def __repr__(self) -> str:
+        return f"Box({self.size_m})"
+
     @cached_property
     def mesh(self) -> TriMesh:
         """The box as twelve triangles, facing outwards."""

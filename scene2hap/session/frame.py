@@ -11,8 +11,10 @@ from numpy.typing import NDArray
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes, clear_call, clear_construction
+from scene2hap.common.counted import first_of
 from scene2hap.errors import SessionError, UnknownObject
 
+_MOST_SHOWN = 8
 _TOUCH = "A touch is Touch(hand, object_id, point_m), its point in the world."
 
 
@@ -60,8 +62,13 @@ class HapticFrame:
         self._gains: Gains | None = None if callable(gains) else _read_only(gains)
         self._work_out: Callable[[], Gains] | None = gains if callable(gains) else None
 
+    def __reduce__(self) -> tuple[object, ...]:
+        # Copies and pickles hold the gains themselves: a function that computes them belongs to its session.
+        return type(self), (self.gains, self.hands, self.sources)
+
     def __repr__(self) -> str:
-        return f"HapticFrame(hands={self.hands!r}, sources={self.sources!r})"
+        sources = first_of(self.sources, _MOST_SHOWN) or "none"
+        return f"HapticFrame(hands {', '.join(self.hands)}; sources {sources})"
 
     @property
     def gains(self) -> Gains:
@@ -186,8 +193,9 @@ class RemovedIds:
 
     def hint(self, wanted_id: object) -> str:
         """A sentence, after a blank, if the id was removed; else empty."""
-        is_removed = isinstance(wanted_id, str) and wanted_id in self._ids
-        return f" {wanted_id!r} was removed; `add(object)` puts it back." if is_removed else ""
+        if not isinstance(wanted_id, str) or wanted_id not in self._ids:
+            return ""
+        return f" {wanted_id!r} was removed; `add(object)` puts it back, `spawn` a copy of a prefab."
 
 
 def require_hand(hand: object, hands: Sequence[str]) -> None:

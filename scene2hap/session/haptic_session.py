@@ -61,6 +61,7 @@ from scene2hap.session.likely_mistakes import (
     warn_if_not_baked,
     warn_if_other_actuator,
     warn_if_other_hands,
+    warn_of_pending_corrections,
 )
 from scene2hap.session.mix.output import Output
 from scene2hap.session.mix.playback import Playback
@@ -97,7 +98,8 @@ class HapticSession:
     Raises: ConfigError; SceneError, BundleError: no scene or bundle, or files that cannot be read; UnknownObject: the
     bundle has an object that the scene does not have.
     Warns: OtherActuatorWarning: the settings name another actuator than the one that the bundle's loops were made for
-    (without a name the session takes the bundle's). SceneWarning: the scene has objects that the bundle does not have.
+    (without a name the session takes the bundle's). SceneWarning: the scene has objects that the bundle does not have,
+    or the bundle has corrections that need `rebake`.
     """
 
     def __init__(
@@ -120,6 +122,7 @@ class HapticSession:
         self._bundle = bundle
         warn_if_not_baked(scene, bundle)
         warn_if_other_actuator(bundle, self.config.actuator)
+        warn_of_pending_corrections(bundle)
         self._sources = Sources()
         for object_id, loops in bundle.loops.items():
             if loops:
@@ -167,7 +170,7 @@ class HapticSession:
 
     @property
     def poses(self) -> Mapping[str, Pose]:
-        """The present pose of every object, by id."""
+        """The present pose of every object, by id. Read-only; `dict(session.poses)` is a copy that can be pickled."""
         return self._state.poses
 
     @property
@@ -292,10 +295,11 @@ class HapticSession:
         cycle, and stay on or off. A level or mute of `set_source` stays unless the bundle's value has changed. Objects
         that the session does not have, and others that were spawned or added with data of their own, are left out.
         Raises: BundleError: another type, or a bundle of another scene. Warns: OtherActuatorWarning: its
-        loops were made for another actuator than the session's.
+        loops were made for another actuator than the session's. SceneWarning: corrections that need `rebake`.
         """
         require_correction(bundle, self._bundle)
         warn_if_other_actuator(bundle, self.config.actuator)
+        warn_of_pending_corrections(bundle)
         before, self._bundle = self._bundle, bundle
         # An id of the bundle may be that of another object now, which the game spawned or added with data of its own.
         haptics = self._state.haptics
@@ -582,10 +586,12 @@ class HapticSession:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if error is None or isinstance(error, KeyboardInterrupt):  # Ctrl-C ends many games
-            self.stop()
-        else:
+        # Many games end by Ctrl-C, which asyncio turns into CancelledError, or by sys.exit, as Panda3D's closed window
+        # does. None of these is an Exception, and what was recorded is kept.
+        if isinstance(error, Exception):
             self._output.abort()
+        else:
+            self.stop()
 
     @property
     def sink(self) -> ActuatorSink | None:

@@ -1,6 +1,6 @@
 """Warnings about valid input that is most likely a mistake.
 
-- Loops that were made for another actuator than the session's.
+- Loops that were made for another actuator than the session's, corrections that wait for a `rebake`.
 - First poses whose quaternions begin with w: (1, 0, 0, 0) is upright with w first, and upside down with w last.
 - Contacts of an engine whose normals point from `b` to `a`: nothing would land.
 - Touches and strikes far from the box around their object. Almost always the point is in other units, in the object's
@@ -19,7 +19,8 @@ import numpy as np
 
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
-from scene2hap.common.counted import counted
+from scene2hap.bundle.pending_corrections import objects_without_states, renamed_objects
+from scene2hap.common.counted import counted, first_of
 from scene2hap.common.warning import warn_of
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics
 from scene2hap.scene.geometry import bounds_of, distances
@@ -40,7 +41,7 @@ LOOKED_AT = 16
 wrong points continues to do so."""
 
 MOST_NAMED = 10
-"""Most silent objects that a session names: a game may spawn thousands, and Python stores the text of each warning."""
+"""Most objects that a session names: a game may spawn thousands, and Python stores the text of each warning."""
 
 NOT_STARTED = "The sink plays nothing: call start(), or use the session in a `with` block."
 
@@ -228,6 +229,18 @@ def warn_if_not_baked(scene: SceneSnapshot, bundle: HapticBundle) -> None:
             f"the bundle lacks {len(new)} of {objects} of the scene, such as {new[0]!r}. What it lacks neither "
             "vibrates nor carries vibration. Bake the scene again; corrections are kept by bake(scene, "
             "overrides=bundle.overrides)."
+        )
+
+
+def warn_of_pending_corrections(bundle: HapticBundle) -> None:
+    """Warn of corrections that nobody feels before the next `rebake`. Warns: SceneWarning."""
+    pending = [(key, "name") for key in renamed_objects(bundle)]
+    pending += [(key, "vibrates") for key in objects_without_states(bundle)]
+    if pending:
+        named = first_of([f"{field} of {key!r}" for key, field in pending], MOST_NAMED)
+        warn_of(
+            f"corrections of the bundle are not baked yet, and change nothing: {named}. Write bundle = rebake(bundle), "
+            "or `scene2hap edit BUNDLE rebake`."
         )
 
 

@@ -204,6 +204,7 @@ MORE_TOPICS: dict[str, tuple[Mistake, ...]] = {
         mistake(
             "session.spawn(prefab, 'radio 2', Pose((3, 1, 3))); session.remove('radio 2'); session.remove('radio 2')",
             "'radio 2' was removed",
+            "`spawn` a copy",
         ),
         warned("bundle.override('table', intensity=0.5)", "'table'", "intensity", "vibrates=True"),
         warned(

@@ -33,6 +33,9 @@ class FunctionBackend:
         self.model = model
         self.requests: list[LLMRequest] = []
 
+    def __repr__(self) -> str:
+        return f"FunctionBackend({self.model!r})"
+
     @property
     def identity(self) -> dict[str, Any]:
         """The settings, besides the request, on which an answer depends."""

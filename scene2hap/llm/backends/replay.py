@@ -65,6 +65,9 @@ class ReplayBackend:
         self._all = _read(self._path)
         self._entries = {entry.key: entry for entry in self._all if model in (None, entry.asked_model or entry.model)}
 
+    def __repr__(self) -> str:
+        return f"ReplayBackend({str(self._path)!r}{'' if self._model is None else f', model={self._model!r}'})"
+
     async def complete(self, request: LLMRequest) -> LLMReply:
         """Return the recorded answer. Raises: ReplayMiss: there is none; names the nearest one and the differences."""
         key = request_key(request)

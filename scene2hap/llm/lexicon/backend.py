@@ -26,6 +26,9 @@ class LexiconBackend:
     material table.
     """
 
+    def __repr__(self) -> str:
+        return "LexiconBackend()"
+
     async def complete(self, request: LLMRequest) -> LLMReply:
         """Return the answer to one request. Equal facts give equal answers."""
         answer = _ANSWERS[request.component](request.facts)

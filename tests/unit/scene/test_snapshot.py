@@ -66,6 +66,7 @@ def test_mesh_copies_its_arrays_and_is_read_only() -> None:
         (lambda: Contact("a", "b", (0.0, 0.0, 0.0), area_m2=-1.0), "area_m2 is -1 m2"),
         (lambda: Contact("a", "b", (0.0, np.nan, 0.0)), r"point_m\[1\] is nan m"),
         (lambda: replace(box("a", (1, 1, 1), (0, 0, 0)), id=""), "'a' has an empty id"),
+        (lambda: box("caf\udce9", (1, 1, 1), (0, 0, 0)), r"'caf\\udce9', with half of a character.*'caf\ufffd'"),
         (lambda: SceneSnapshot("void", "y", ()), "'void' has no object"),
         (lambda: SceneSnapshot("s", "x", (box("a", (1, 1, 1), (0, 0, 0)),)), "up_axis is 'x'"),
         (

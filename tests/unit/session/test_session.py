@@ -1,7 +1,10 @@
 """A session on a table with two phones."""
 
+import asyncio
+import copy
 import math
 import os
+import pickle
 import subprocess
 import sys
 from pathlib import Path
@@ -246,11 +249,12 @@ def test_a_run_that_fails_leaves_no_wav(tmp_path: object) -> None:
     assert not sink.path.exists()
 
 
-def test_a_game_that_is_interrupted_leaves_its_wav(tmp_path: object) -> None:
-    sink = WavSink(f"{tmp_path}/out.wav")
-    with pytest.raises(KeyboardInterrupt), HapticSession(*table_with_two_phones(), CONFIG, sink=sink):
+@pytest.mark.parametrize("end", [KeyboardInterrupt, SystemExit, asyncio.CancelledError, GeneratorExit])
+def test_a_game_that_is_ended_from_outside_leaves_its_wav(end: type[BaseException], tmp_path: Path) -> None:
+    sink = WavSink(tmp_path / "out.wav")
+    with pytest.raises(end), HapticSession(*table_with_two_phones(), CONFIG, sink=sink):
         sink.pull(10)
-        raise KeyboardInterrupt
+        raise end
     assert soundfile.info(sink.path).frames >= 10
 
 
@@ -484,3 +488,18 @@ def test_touches_of_other_types_are_refused(touches: Any) -> None:
     with pytest.raises(SessionError, match="must be a list of Touch"):
         session.update(touches=touches)
     assert session.stats.updates == 0
+
+
+@pytest.mark.parametrize("model", ["exponential_plate", "no_propagation"])
+@pytest.mark.parametrize("copied", [copy.deepcopy, lambda frame: pickle.loads(pickle.dumps(frame))])
+def test_a_frame_that_is_copied_or_pickled_has_its_gains(copied: Any, model: str) -> None:
+    s = HapticSession(*table_with_two_phones(), {"propagation": model})
+    kept = copied(s.update(touches=[ON_TABLE]))
+    gains = kept.gains.copy()
+    s.update(touches=[Touch("left", "phone", (0.12, 0.73, 0.4))])  # the copy needs its session no more
+    same = HapticSession(*table_with_two_phones(), {"propagation": model}).update(touches=[ON_TABLE])
+    np.testing.assert_array_equal(gains, same.gains)
+    assert (kept.hands, kept.sources) == (same.hands, same.sources)
+    assert kept.gain("left", "phone") == same.gain("left", "phone")
+    with pytest.raises(ValueError, match="read-only"):
+        kept.gains[:] = 0
