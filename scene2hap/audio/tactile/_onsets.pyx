@@ -2,12 +2,13 @@
 
 import numpy as np
 
-from libc.math cimport sqrt
+from libc.math cimport INFINITY, sqrt
 
 from scene2hap.audio.tactile import onsets
 
 cdef double QUIETEST = onsets.QUIETEST, FORGET = onsets.FORGET
 cdef double RISE = onsets.RISE, FAINTEST = onsets.FAINTEST, LOUDER = onsets.LOUDER, SUSTAINED = onsets.SUSTAINED
+cdef double LOWERED = onsets.LOWERED
 cdef Py_ssize_t WARM = onsets.WARM, LOOK = onsets.LOOK, APART = onsets.APART, SPARED = onsets.SPARED
 cdef Py_ssize_t FIRST_AFTER = onsets.AFTER[0], LAST_AFTER = onsets.AFTER[1]
 
@@ -49,7 +50,7 @@ def onsets_among(
 ):
     cdef Py_ssize_t k
     cdef const double[:, ::1] sound = steps[0], ticks = steps[1]
-    cdef double last = memory[0], before = memory[1], height_before = memory[2], since, energy
+    cdef double last = memory[0], before = memory[1], height_before = memory[2], lowest = memory[3], since, energy
     cdef Onset onset
     found, lowered = [], np.empty(n)
     cdef double[::1] shares = lowered
@@ -64,13 +65,18 @@ def onsets_among(
             if onset.height > (0.0 if since >= APART else LOUDER * height_before) and not onset.is_sustained:
                 if since >= SPARED:
                     before = sound[1, k]
-                last, height_before = n_known + k, onset.height
+                last, height_before, lowest = n_known + k, onset.height, INFINITY
                 found.append((k, onset.height, onset.left))
-        energy = sound[0, k]
-        if n_known + k - last < SPARED and energy > 2.0 * before:
+        energy, since = sound[0, k], n_known + k - last
+        if since > LOOK:
+            if spares_sustained and since >= APART and energy > RISE * lowest:
+                lowest = 0.0
+            else:
+                lowest = min(lowest, max(energy, QUIETEST))
+        if since < SPARED and lowest > 0.0 and energy > LOWERED * before:
             shares[k] = sqrt(before / energy)
             is_lowered = True
-    memory[0], memory[1], memory[2] = last, before, height_before
+    memory[0], memory[1], memory[2], memory[3] = last, before, height_before, lowest
     return found, lowered if is_lowered else None
 
 

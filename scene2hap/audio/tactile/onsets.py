@@ -9,8 +9,9 @@ means S:
 The irregularity of a machine stays below that factor, and a steady sound is unchanged, bit for bit. The stage has a
 latency of 10 ms, in which it measures the height of an onset.
 
-If the whole sound is known, the level of the bed relative to it is known as well. Then the energy of a burst is that of
-its onset (at most 60 ms) times this ratio, so that events and bed keep their relation. The latency is 60 ms.
+If the whole sound is known, the level of the bed relative to it is known as well. Then the energy of a burst is the
+energy that the bed is spared (at most 60 ms) times this ratio, so that nothing is lost between events and bed. The
+latency is 80 ms.
 """
 
 from __future__ import annotations
@@ -41,7 +42,11 @@ QUIETEST = 1e-7
 LATE_S = 5.0
 SHARP_S, DULL_S = 0.008, 0.020
 SPARED_S = 0.06
-"""How long after an onset the bed's input is limited to the energy before it [s]; otherwise its filters would ring."""
+"""How long after an onset the bed's input is limited to the energy before it [s]; otherwise its filters would ring.
+A later rise by `RISE` that is no onset of its own, as among dense ticks, ends this time: the bed renders it, if it
+follows the level of the sound."""
+LOWERED = 2.0
+"""Ratio to the energy before an onset above which the bed's input is limited to that energy."""
 SUSTAINED, AFTER = 0.5, (2, 4)
 """A sustained onset, like a syllable or a knock, keeps this share of its energy within these steps after its peak."""
 TICKS_HZ = 1000.0
@@ -161,7 +166,8 @@ def _limited(amplitude: float, bed: float) -> float:
 
 class _PendingOnset(NamedTuple):
     """An onset whose burst is not made yet: begin [samples or steps], energy of its highest step, share of this energy
-    after `LOOK` steps, sum of the energies of its steps, and True if the energy of the whole sound hardly rises."""
+    after `LOOK` steps, sum of the energies that the bed is spared, and True if the energy of the whole sound hardly
+    rises."""
 
     begin: int
     height: float
@@ -201,14 +207,14 @@ def onsets_among(
 
     Parameters: steps : energy, slow mean and recent maximum of each step of sound and ticks (2, 3, m), where m exceeds
     n by the steps that measure an onset; n_known : number of earlier steps; memory : step of the last onset, energy of
-    the sound before it, and energy of the onset (3,), updated by this function; spares_sustained : no burst for
-    sustained onsets.
+    the sound before it, energy of the onset, and the least energy since, 0 once the bed is spared no longer (4,),
+    updated by this function; spares_sustained : no burst for sustained onsets.
     Returns: onsets (step, energy, share of the energy after `LOOK` steps); amplitude of the bed's input (n,) [-], None
     if all are 1.
     """
     onsets, shares = [], np.ones(n)
     sound, ticks = steps
-    last, before, height_before = memory.tolist()
+    last, before, height_before, lowest = memory.tolist()
     rising = (sound[0] > RISE * sound[1]) | (ticks[0] > RISE * ticks[1])
     for k in range(n):
         number = n_known + k
@@ -220,12 +226,15 @@ def onsets_among(
             if height > least and not (is_sustained and spares_sustained):
                 # Between quick strokes the mean does not recover, so the energy before the first stroke is kept.
                 before = float(sound[1, k]) if since >= SPARED else before
-                last, height_before = number, height
+                last, height_before, lowest = number, height, np.inf
                 onsets.append((k, height, left))
-        energy = float(sound[0, k])
-        if number - last < SPARED and energy > 2.0 * before:
+        energy, since = float(sound[0, k]), number - last
+        if since > LOOK:
+            rises_again = spares_sustained and since >= APART and energy > RISE * lowest
+            lowest = 0.0 if rises_again else min(lowest, max(energy, QUIETEST))
+        if since < SPARED and lowest > 0.0 and energy > LOWERED * before:
             shares[k] = (before / energy) ** 0.5
-    memory[:] = last, before, height_before
+    memory[:] = last, before, height_before, lowest
     return onsets, shares if (shares < 1.0).any() else None
 
 
@@ -249,11 +258,14 @@ class _OnsetDetector:
 
     def __init__(self, *, spares_sustained: bool) -> None:
         self._spares_sustained = spares_sustained
-        self.look = SPARED if spares_sustained else LOOK
+        self._n_measuring = LOOK + AFTER[1] if spares_sustained else LOOK
+        self.look = self._n_measuring + SPARED if spares_sustained else LOOK
         self.n_decided = 0
         self._steps = np.empty((2, 3, 0))  # energy, slow mean and recent maximum of sound and ticks
+        self._shares = np.empty(0)  # of those of these steps that were searched for onsets
+        self._found: deque[tuple[int, float, float]] = deque()  # onsets among them
         self._means = np.zeros((2, 2))
-        self._memory = np.array([-float(SPARED), 0.0, 0.0])
+        self._memory = np.array([-float(SPARED), 0.0, 0.0, np.inf])
 
     @property
     def n_waiting(self) -> int:
@@ -264,19 +276,34 @@ class _OnsetDetector:
         """Return the result of `onsets_among` for the steps that these energies (2, n) of sound and ticks decide."""
         found = followed(energies, self._means, self.n_decided + self.n_waiting)
         steps = np.concatenate([self._steps, found], axis=2)
+        self._search(steps)
         n = max(0, steps.shape[2] - self.look)
-        onsets, shares = onsets_among(steps, n, self.n_decided, self._memory, self._spares_sustained)
-        due = [_measured(steps[0], *one) for one in onsets]
+        due = []
+        while self._found and self._found[0][0] < n:
+            onset = self._found.popleft()
+            # A live stream waits less, and measures no energies.
+            end = min(onset[0] + SPARED, len(self._shares), *(k for k, *_ in self._found))
+            due.append(_measured(steps[0], self._shares, *onset, end))
+        self._found = deque((k - n, height, left) for k, height, left in self._found)
+        shares, self._shares = self._shares[:n], self._shares[n:]
         self._steps = steps[:, :, n:]
         self.n_decided += n
-        return due, shares
+        return due, shares if (shares < 1.0).any() else None
+
+    def _search(self, steps: Signal) -> None:
+        """Find the onsets of those steps whose onsets can be measured."""
+        first = len(self._shares)
+        n = max(0, steps.shape[2] - self._n_measuring - first)
+        rest = np.ascontiguousarray(steps[:, :, first:])
+        onsets, shares = onsets_among(rest, n, self.n_decided + first, self._memory, self._spares_sustained)
+        self._found += [(first + k, height, left) for k, height, left in onsets]
+        self._shares = np.concatenate([self._shares, np.ones(n) if shares is None else shares])
 
 
-def _measured(sound: Signal, k: int, height: float, left: float) -> _PendingOnset:
-    """Return an onset at step k of the sound (3, m). It lasts until the energy rises again, at most `SPARED` steps."""
-    before = float(sound[1, k])
-    steps = sound[0, k : k + SPARED]
-    top = int(np.argmax(steps[: LOOK + 1]))
-    again = np.flatnonzero(steps[top:] > RISE * np.minimum.accumulate(steps[top:]))
-    energy = float(np.maximum(steps[: top + int(again[0]) if again.size else None] - before, 0.0).sum())
-    return _PendingOnset(k, height, left, energy, is_hidden=float(steps[top]) <= RISE * before)
+def _measured(sound: Signal, shares: Signal, k: int, height: float, left: float, end: int) -> _PendingOnset:
+    """Return an onset at step k of the sound (3, m), with the energy that the bed is spared until step `end`."""
+    before, energies = float(sound[1, k]), sound[0, k:end]
+    is_beds = (shares[k:end] == 1.0) & (energies > LOWERED * before)
+    spared = float(np.where(is_beds, 0.0, np.maximum(energies - before, 0.0)).sum())
+    is_hidden = float(sound[0, k : k + LOOK + 1].max()) <= RISE * before
+    return _PendingOnset(k, height, left, spared, is_hidden=is_hidden)

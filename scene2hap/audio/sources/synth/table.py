@@ -104,6 +104,10 @@ _PURR = replace(_strokes(26.3, 79.0, 0.012, click=0.05), rhythm=Rhythm(1.4, 0.28
 _DRIP = _strokes(1.3, 300.0, 0.02)
 _JACKHAMMER = Patch(partial(blows, per_second=25.0, body_hz=125.0, decay_s=0.03), (95.0, 155.0))
 _CLATTER = _strokes(30.0, 120.0, 0.015)
+# Household machines make up to 850 stitches a minute, and each moves the needle down and up (data sheets, from memory).
+_STITCHES = _strokes(14.0, 112.0, 0.03)
+# 4200 blows a minute of a pneumatic striker (data sheets of rotary hammers of 3 kg, from memory).
+_ROTARY_HAMMER = _strokes(70.0, 140.0, 0.012)
 _CAR = _engine(28.0, 2, 4.5)
 _DIESEL = _engine(35.0, 2, 7.0)
 _SMALL_ENGINE = _engine(25.0, 2, 1.0)
@@ -119,6 +123,8 @@ _COFFEE_GRINDER = replace(_tool(260.0, 260.0, 0.25, spindle=0.6), rhythm=Rhythm(
 _DOUGH_MIXER = _geared(165.0, 2.6, 0.4, load=0.3, rumble=0.3)
 _GRINDER = _tool(420.0, 183.0, 0.3, spindle=1.5, loud_hz=183.0)
 _CUTTER = _tool(300.0, 300.0, 0.3, spindle=0.0)
+# Blades of 165 to 250 mm turn 5500 times a minute, behind a gear of 1 to 4 (data sheets, from memory).
+_CIRCULAR_SAW = _tool(370.0, 92.0, 0.4, spindle=1.5, loud_hz=92.0)
 _PUMP = Patch(pump, (276.0, 300.0), 0.3)
 _MUSIC = Patch(music, (60.0, 135.0), is_steady=False)
 # Blades that differ slightly, loaded by air; 1400 turns a minute. With more flow, some takes would be felt at the blade
@@ -133,6 +139,15 @@ _CENTRIFUGE = _fan(66.0, 4, 0.4, blade=0.1, flow=0.2)
 _KNEADER = _geared(48.0, 3.5, None, load=0.25)
 _CONVEYOR = _geared(48.0, 9.0, None, rumble=0.4)
 _GEAR_MOTOR = _geared(95.0, 3.0, 0.5)
+# A membrane or rollers move a fluid once or twice a second (data sheets of breast and dialysis pumps, from memory).
+_FLUID_PUMP = _geared(95.0, 1.2, 0.2, load=0.25)
+# Rows of teeth on slow shafts meet the paper six times a second (assumed).
+_SHREDDER = _geared(100.0, 6.0, 0.4, load=0.3, rumble=0.5)
+# A generator hums, and a blade passes the tower every 1.3 s: three blades, 15 turns a minute (data sheets of wind
+# turbines, from memory).
+_WIND_TURBINE = replace(_HUM, rhythm=Rhythm(0.75, 0.28, 0.02))
+# Wheels on the shaft of a two-pole motor.
+_BENCH_GRINDER = _geared(48.0, 48.0, None, load=0.1, rumble=0.4)
 _WINCH = _geared(48.0, 6.0, None)
 _ELECTRIC_DRIVE = _geared(90.0, 8.0, 1.5)
 _TUMBLER = replace(_geared(48.0, 0.85, None, load=0.1, thump_hz=70.0), rhythm=Rhythm(0.85, 0.28, 0.0))
@@ -204,7 +219,11 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     # small things
     ("phone, smartwatch, pager, tablet", "", _RINGING_PHONE),
     ("gamepad, controller, joystick", "", _shaker(48.0)),
-    ("clock, watch, metronome", "", _TICK),
+    ("clock, watch", "", _TICK),
+    # 120 beats a minute, the middle of its scale.
+    ("metronome", "", _strokes(2.0, 230.0, 0.025)),
+    # A balance of 18,000 beats an hour (watchmakers' tables, from memory).
+    ("pocket watch", "", _strokes(5.0, 300.0, 0.012, click=0.6)),
     ("timer", "", _TIMER),
     ("alarm clock, alarm, siren, smoke detector", "", _ALARM),
     ("clock, watch, timer, alarm clock", "ring, beep, buzz", _ALARM),
@@ -226,21 +245,40 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("drone, quadcopter", "", _fan(90.0, 2, 0.3, rotor=0.4, blade=1.0)),
     ("robot, gearbox, wiper, citrus press, bread slicer, electric opener, electric desk", "", _GEAR_MOTOR),
     ("money counter, claw machine, toll gate, turnstile, automatic door, stairlift", "", _GEAR_MOTOR),
-    ("sewing machine", "", _CLATTER),
+    ("sewing machine, embroidery machine, knitting machine", "", _STITCHES),
+    # Two hundred picks a minute of a shuttle (from memory).
+    ("loom", "", _strokes(3.3, 90.0, 0.04)),
+    # A platform circles at 240 turns a minute (data sheets, from memory).
+    ("orbital shaker", "", _geared(48.0, 4.0, None)),
     # workshop and machines
     ("drill, screwdriver", "", _DRILL),
-    ("grinder, sander, polisher, circular saw, saw", "", _GRINDER),
+    ("grinder, sander, polisher, saw", "", _GRINDER),
+    ("circular saw, table saw, mitre saw, miter saw", "", _CIRCULAR_SAW),
+    # Wheels of 300 mm turn 18 times a second behind a belt (data sheets, from memory).
+    ("band saw", "", _geared(48.0, 18.0, None, rumble=0.4)),
+    ("bench grinder", "", _BENCH_GRINDER),
+    ("shredder", "", _SHREDDER),
+    ("wood chipper", "", _GRINDER),
     ("wood router, rotary tool, planer", "", _CUTTER),
+    # A handpiece of 20,000 turns a minute at its drill (data sheets, from memory).
+    ("dental drill", "", _tool(333.0, 333.0, 0.2, spindle=0.0)),
     ("jigsaw, reciprocating saw", "", _to_and_fro(46.0, rattle=0.3)),
-    ("jackhammer, breaker, hammer drill, demolition hammer", "", _JACKHAMMER),
+    ("jackhammer, breaker, demolition hammer", "", _JACKHAMMER),
+    ("hammer drill", "", _ROTARY_HAMMER),
     # 660 blows a minute; its spring spreads each of them (data sheets, from memory).
     ("rammer", "", _strokes(11.0, 77.0, 0.065)),
     # An eccentric of 5400 turns a minute (data sheets, from memory).
     ("compactor", "", _shaker(90.0, 0.7)),
     ("impact driver, impact wrench", "", _strokes(58.0, 174.0, 0.01)),
     ("nail gun, stapler", "", _strokes(1.5, 150.0, 0.04)),
-    ("lathe, milling machine", "", _geared(48.0, 12.0, None)),
-    ("compressor, air pump, oxygen concentrator, refinery", "", _PISTONS),
+    ("lathe, milling machine, drill press", "", _geared(48.0, 12.0, None)),
+    ("infusion pump, dialysis machine, breast pump", "", _FLUID_PUMP),
+    ("turbine", "", _WIND_TURBINE),
+    ("compressor, air pump, suction pump, oxygen concentrator, refinery", "", _PISTONS),
+    # A magnet at twice the mains shakes trays and bowls.
+    ("bowl feeder", "", _MAGNET_CLIPPER),
+    # An unbalanced mass of 960 turns a minute throws stones up, and they strike the deck (data sheets, from memory).
+    ("screening machine", "", _strokes(16.0, 64.0, 0.04)),
     ("motor", "", MOTOR),
     ("conveyor, conveyor belt, escalator, travelator, stair climber", "", _CONVEYOR),
     ("treadmill", "", _geared(60.0, 2.6, 1.8, rumble=0.3, thump_hz=75.0)),
@@ -252,6 +290,8 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("chainsaw", "", replace(_engine(150.0, 1, 0.8, revs=0.04, roar=2.0), rhythm=Rhythm(7.0, 0.4, 0.3))),
     ("chainsaw", "rev, start, throttle", _engine(130.0, 1, 0.8, revs=0.35, rev_s=1.7, roar=2.0)),
     ("leafblower, string trimmer, brush cutter", "", _TWO_STROKE),
+    # Its blades reverse 3400 times a minute (data sheets, from memory).
+    ("hedge trimmer", "", _to_and_fro(56.7, rattle=0.4)),
     ("lawnmower, generator, tiller, scarifier, snow blower, cultivator", "", _SMALL_ENGINE),
     ("robot mower", "", _fan(50.0, 3, 0.6)),
     ("concrete mixer, cement mixer", "", _geared(48.0, 0.5, None, load=0.1, rumble=0.4, thump_hz=60.0)),
@@ -260,6 +300,7 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("pile driver, forging hammer, hydraulic press, molding machine", "", _strokes(0.8, 55.0, 0.15)),
     # road, rail, air
     ("car, van, taxi, engine, ambulance, camper, buggy, kart, atv, quad bike, jet ski, snowmobile", "", _CAR),
+    ("outboard motor", "", _CAR),
     ("truck, bus, tractor, excavator, bulldozer, forklift, boat, crane, cement truck", "", _DIESEL),
     ("loader, grader, digger, locomotive, ship, yacht, motorboat, speedboat, harvester, snow plow", "", _DIESEL),
     ("hovercraft, baler, feed wagon, manure spreader, drilling rig, oil rig", "", _DIESEL),
@@ -268,6 +309,8 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("electric car, bumper car, golf cart, toy train, stacker, submarine, thruster", "", _ELECTRIC_DRIVE),
     ("train, tram, subway, metro", "", _ROLLING),
     # The first shaft of a turbofan at cruise; its blade rate is far above the range of touch.
+    # Two blades at 2400 turns a minute pass as often as its four cylinders fire (data sheets, from memory).
+    ("propeller plane", "", _engine(80.0, 1, 8.0)),
     ("airplane, aeroplane, plane, jet", "", _fan(75.0, 24, 30.0, blade=0.05, flow=0.8)),
     ("helicopter", "", Patch(rotor_slap, (45.0, 85.0))),
     # by verb, if the object is unknown

@@ -212,3 +212,21 @@ def test_bursts_have_the_pitch_of_the_source_or_of_the_best_actuator_response() 
     assert carrier_hz(ConversionContext(own_hz=50.0)) == pytest.approx(250.0, rel=0.05)
     lra = ActuatorProfile(name="lra", resonance_hz=175.0, q=15.0)
     assert carrier_hz(ConversionContext(lra, own_hz=50.0)) == pytest.approx(175.0, rel=0.03)
+
+
+def test_dense_random_ticks_keep_the_level_of_the_sound_over_time() -> None:
+    # Sixty equal clicks a second at random, as of a counter near a source. Those that are too close to others to be
+    # onsets must not vanish.
+    seconds, found = 8, []
+    click = np.exp(-np.arange(240) / 48.0) * np.sin(2 * np.pi * 2500.0 / RATE * np.arange(240))
+    for seed in range(4):
+        rng = np.random.default_rng(seed)
+        sound = 1e-4 * rng.standard_normal(seconds * RATE)
+        for begin in rng.integers(0, len(sound) - len(click), 60 * seconds):
+            sound[begin : begin + len(click)] += 0.5 * click
+        felt = auto(sound, RATE, 250.0, 0.0)
+        levels = [
+            np.sqrt(np.square(x.astype(np.float64)).reshape(10 * seconds, -1).mean(axis=1)) for x in (sound, felt)
+        ]
+        found.append(np.corrcoef(*levels)[0, 1])
+    assert np.mean(found) > 0.84
