@@ -106,7 +106,15 @@ def box_distance_m(x: Body, y: Body) -> float:
 
 def apart_by(x: Body, y: Body, margin_m: float) -> bool:
     """Return True if two AABBs are more than `margin_m` apart along some axis."""
-    return box_distance_m(x, y) > margin_m
+    low, high, other_low, other_high = x.low, x.high, y.low, y.high
+    return (
+        low[0] - other_high[0] > margin_m
+        or other_low[0] - high[0] > margin_m
+        or low[1] - other_high[1] > margin_m
+        or other_low[1] - high[1] > margin_m
+        or low[2] - other_high[2] > margin_m
+        or other_low[2] - high[2] > margin_m
+    )
 
 
 def beside_by(x: Body, y: Body, margin_m: float) -> bool:

@@ -22,5 +22,5 @@ class lazy(Generic[_Value]):
         if instance is None:
             return self
         value = self._derive(instance)
-        setattr(instance, self._name, value)
+        instance.__dict__[self._name] = value
         return value
