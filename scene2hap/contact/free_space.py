@@ -166,13 +166,13 @@ def _computed_region(host: Body, own: VerticalAxis, taken: AABB, foot: Flat) -> 
     if not len(columns):
         return _empty_region(host, own, taken)
     ledges = host.shape.ledges(own)
-    numbers, tops = ledges.number[columns], ledges.tops[columns]
+    tops = ledges.tops.take(columns)
     # The host's vertical sides reach as high as the ledge that they bound, so only level triangles name the ledge.
-    number = int(numbers[tops >= tops.max() - _ROUNDING_M].max())
+    number = max(ledges.number.take(columns[tops >= np.maximum.reduce(tops) - _ROUNDING_M]).tolist())
     if number < 0 or not ledges.covers(number, foot):
         return None
     top_m = ledges.heights[number]
-    if ((numbers != number) & (tops > top_m + _ROUNDING_M)).any():
+    if ((ledges.number.take(columns) != number) & (tops > top_m + _ROUNDING_M)).any():
         return None
     near = _Surroundings(host, own, taken)
     higher = (ledges.number[near.columns] != number) & (near.high[2] > top_m + _ROUNDING_M)
