@@ -144,9 +144,8 @@ cdef struct Spreading:
 
 
 def contact_points(host, guest, turn, shift, way, double within, place):
-    return points_without(host, guest, turn, shift, way, within, place, within) or points_without(
-        host, guest, turn, shift, way, within, place, -1.0
-    )
+    found = points_without(host, guest, turn, shift, way, within, place, within)
+    return found or points_without(host, guest, turn, shift, way, within, place, -1.0)
 
 
 cdef points_without(host, guest, turn, shift, way, double within, place, double loose):
@@ -168,9 +167,8 @@ cdef points_without(host, guest, turn, shift, way, double within, place, double 
         n = choose(chosen, &search)
         if n < 0:
             raise MemoryError
-        for k in range(n):
-            place_point(chosen[k], chosen[k], &in_world)
-            place_point(chosen[k] + 3, chosen[k] + 3, &in_world)
+        for k in range(2 * n):
+            place_point(chosen[0] + 3 * k, chosen[0] + 3 * k, &in_world)
         return [(triple(chosen[k]), triple(chosen[k] + 3)) for k in range(n)]
     finally:
         close_tree(&search.guest)
