@@ -170,7 +170,7 @@ class Holders:
             and y not in self._certified
             and not apart_by(body, other, reach_m)
             and not self._pairs.hinged.are_chained(x, y)
-            and self._space(body, other).empty_region is None
+            and not self._is_clear(body, other)
         ]
         if not larger:
             return {}
@@ -187,10 +187,13 @@ class Holders:
             for y, share in shares.items()
         }
 
-    def _space(self, guest: Body, host: Body) -> FreeSpace:
-        """Return the free space of a larger body around a smaller one, that of their pair if they have one."""
+    def _is_clear(self, guest: Body, host: Body) -> bool:
+        """Return True if a larger body surely has nothing near a smaller one."""
         body_pair = self._pairs.of[guest.id].get(host.id)
-        return FreeSpace(guest, host) if body_pair is None else body_pair.space
+        if body_pair is None:
+            return FreeSpace(guest, host).empty_region is not None
+        # Where one may rest on the other, something of the host is in the path of the fall.
+        return body_pair.faller is None and body_pair.space.empty_region is not None
 
     def _body_pair(self, x: str, y: str) -> BodyPair:
         body_pair = self._pairs.of[x].get(y)
