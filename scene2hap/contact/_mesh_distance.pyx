@@ -143,17 +143,16 @@ cdef struct Spreading:
     bint is_out_of_memory
 
 
-def contact_points(host, guest, turn, shift, way, double within):
-    return points_without(host, guest, turn, shift, way, within, within) or points_without(
-        host, guest, turn, shift, way, within, -1.0
-    )
+def contact_points(host, guest, turn, shift, way, double within, place):
+    found = points_without(host, guest, turn, shift, way, within, place, within)
+    return found or points_without(host, guest, turn, shift, way, within, place, -1.0)
 
 
-cdef points_without(host, guest, turn, shift, way, double within, double loose):
+cdef points_without(host, guest, turn, shift, way, double within, place, double loose):
     """Return the contact points without crossings between ends within `loose`."""
     cdef Spreading search
     cdef double[MAX_POINTS][6] chosen
-    cdef Placement at = placement_of(turn, shift), moved = at
+    cdef Placement at = placement_of(turn, shift), moved = at, in_world = placement_of(place[0], place[1])
     cdef int k, n
     memset(&search, 0, sizeof(Spreading))
     search.within, search.loose = within, loose
@@ -168,6 +167,8 @@ cdef points_without(host, guest, turn, shift, way, double within, double loose):
         n = choose(chosen, &search)
         if n < 0:
             raise MemoryError
+        for k in range(2 * n):
+            place_point(chosen[0] + 3 * k, chosen[0] + 3 * k, &in_world)
         return [(triple(chosen[k]), triple(chosen[k] + 3)) for k in range(n)]
     finally:
         close_tree(&search.guest)

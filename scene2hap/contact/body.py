@@ -106,7 +106,8 @@ def box_distance_m(x: Body, y: Body) -> float:
 
 def apart_by(x: Body, y: Body, margin_m: float) -> bool:
     """Return True if two AABBs are more than `margin_m` apart along some axis."""
-    return box_distance_m(x, y) > margin_m
+    up = x.up_axis
+    return beside_by(x, y, margin_m) or x.low[up] - y.high[up] > margin_m or y.low[up] - x.high[up] > margin_m
 
 
 def beside_by(x: Body, y: Body, margin_m: float) -> bool:

@@ -119,14 +119,14 @@ class BroadPhase:
 
     def _found_neighbours(self, ids: Sequence[str]) -> dict[str, set[str]]:
         """Return the ids of the bodies whose fat boxes overlap those of some bodies, touching included."""
-        columns = np.array([self._columns[x] for x in ids], dtype=np.intp)
-        found: dict[str, set[str]] = {x: set() for x in ids}
+        columns, found = [self._columns[x] for x in ids], {x: set[str]() for x in ids}
         if len(ids) < _MANY:
-            for x, column in zip(ids, columns, strict=True):
-                others = self._fat_boxes.meeting(self._fat_boxes.some(column[None]))
-                found[x] = {self._ids[k] for k in others.tolist()}
+            low, high = self._fat_boxes
+            for x, k in zip(ids, columns, strict=True):
+                others = self._fat_boxes.meeting(Boxes(low[:, k : k + 1], high[:, k : k + 1]))
+                found[x].update([self._ids[k] for k in others.tolist()])
         else:
-            for i, j in box_pairs(self._fat_boxes.some(columns), self._fat_boxes):
+            for i, j in box_pairs(self._fat_boxes.some(np.array(columns)), self._fat_boxes):
                 for x, y in zip(i.tolist(), j.tolist(), strict=True):
                     found[ids[x]].add(self._ids[y])
         for x in ids:

@@ -15,12 +15,12 @@ from typing import NamedTuple
 
 from scene2hap.contact.body import Body, roles
 from scene2hap.contact.free_space import FreeSpace
-from scene2hap.contact.geometry.planes import Plane, floor_at, reach_along, roof_at, separation, wall_at
+from scene2hap.contact.geometry.planes import Plane, floor_at, roof_at, separation, wall_at
 from scene2hap.contact.geometry.vectors import AABB
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.level import Rest
 from scene2hap.contact.pair import rest_of, support_normal
-from scene2hap.contact.rule import TOUCH_M, fall_reach_m
+from scene2hap.contact.rule import TOUCH_M, fall_reach_m, upper_of
 from scene2hap.contact.track import SupportFace, Track
 from scene2hap.scene.pose import Pose
 
@@ -106,16 +106,6 @@ class Certificate:
                     lowest = max(lowest, -most_m)
         self._track.keep_in((low[0], low[flat], high[0], high[flat]), (lowest, highest), walls)
 
-    def divides(self, other: Body, reach_m: float) -> bool:
-        """Return True if the single vertical plane between the two keeps `other` more than `reach_m` [m] beyond it."""
-        planes = self._planes.get(other.id, ())
-        if len(planes) != 1 or planes[0][2] != 0:
-            return False
-        n_u, n_v, _, most_m, _ = planes[0]
-        flat = other.v_axis
-        u, v = (other.low[0] + other.high[0]) / 2, (other.low[flat] + other.high[flat]) / 2
-        return n_u * u + n_v * v - reach_along(other.stance.footprint, n_u, n_v) - most_m > _SPARE * reach_m
-
     def step(self, pose: Pose, found: dict[Pair, Junction | None]) -> bool:
         """Move the body and add its junction to `found`. Returns False, and does nothing, if the bounds are left."""
         moved = self._track.moved(pose.position_m, pose.rotation_xyzw)
@@ -131,6 +121,8 @@ class Certificate:
 
 def resting_on(body: Body, support: Body) -> Resting | None:
     """Return how a body rests on `support` with its whole base face and weight 1; None where that is not certain."""
+    if upper_of(body, support) is not body:
+        return None
     space, up, top_face = FreeSpace(*roles(body, support)), body.up_axis, support.stance.top_face
     rest = rest_of(body, support, space)
     if rest is None or not rest.wholly or not _SURE_M < rest.fall_m < 2 / 3 * fall_reach_m(body.size_m):
@@ -151,7 +143,7 @@ def standing_planes(body: Body, resting: Resting) -> tuple[Plane, ...] | None:
         planes += free
         least_m = resting.rest.top_m + _SURE_M
         if least_m <= support.low[up] + TOUCH_M and least_m < support.high[up] - TOUCH_M:
-            # At these heights `is_over` needs the body inside the support's AABB, with a bottom no lower than its own.
+            # Here `upper_of` needs the body inside the support's AABB, with a bottom no lower than that one's.
             floor_m = support.low[up] + max(-TOUCH_M, _SPARE * TOUCH_M - (body.high[up] - body.low[up]))
             planes += _all_in(support, floor_m)
     return planes
@@ -177,7 +169,7 @@ def _standing(body: Body, resting: Resting) -> SupportFace:
     assert face is not None
     u, v = support.position_m[0], support.position_m[body.v_axis]
     least_m = resting.rest.top_m + _SURE_M
-    # `is_over` is sure if the bottom is clearly higher or the body inside the support (`_all_in`); else middles decide.
+    # `upper_of` is sure of a clearly higher bottom, and inside the support (`_all_in`); else middles decide.
     is_beyond = least_m > support.low[up] + TOUCH_M or least_m < support.high[up] - TOUCH_M
     is_sure = is_on_ledge and is_beyond
     return SupportFace(

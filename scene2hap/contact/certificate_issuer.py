@@ -130,8 +130,6 @@ class CertificateIssuer:
             certificate = self.of[z]
             other = certificate.body
             reach_m = self._reach_m(other, body, z in self._unsupported)
-            if certificate.divides(body, reach_m):
-                continue
             if x in certificate.pins:
                 if not (hangs and body.size_m < other.size_m):
                     continue

@@ -17,8 +17,8 @@ import numpy as np
 
 from scene2hap.common.arrays import Floats
 from scene2hap.contact.body import Body, box_in_frame, roles
-from scene2hap.contact.geometry.boxes import Boxes
 from scene2hap.contact.geometry.rays import first_hits
+from scene2hap.contact.geometry.triangle_tree import ALL, meeting
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.rule import OUTSIDE_SHARE, SIDE_SHARE, play_reach_m, weight
 
@@ -57,13 +57,15 @@ def _has_sides(host: Body, middle: Triple, half: Triple, reach_m: float) -> bool
     This skips the rays for most objects in a room, since these are far from its walls. It also skips objects near a
     single part of the host, such as the leg of a table.
     """
-    centre, edge = np.array(middle)[:, None], np.array(half)[:, None]
-    boxes = host.shape.boxes
-    near = boxes.meeting(Boxes(centre - edge - reach_m, centre + edge + reach_m))
+    (x, y, z), (u, v, w) = middle, half
+    low, high = (x - u, y - v, z - w), (x + u, y + v, z + w)
+    (a, b, c), (d, e, f) = low, high
+    around = (a - reach_m, b - reach_m, c - reach_m), (d + reach_m, e + reach_m, f + reach_m)
+    near = meeting(host.shape.tree, *around, ALL)
     if not len(near):
         return False
-    hull = boxes.some(near).hull()
-    return not ((hull.low > centre + edge) | (hull.high < centre - edge)).any()
+    hull = host.shape.boxes.some(near).hull()
+    return not ((hull.low[:, 0] > high) | (hull.high[:, 0] < low)).any()
 
 
 def _play_m(guest: Body, host: Body, reach_m: float) -> float:

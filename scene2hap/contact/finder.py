@@ -21,8 +21,6 @@ from scene2hap.contact.rule import TOUCH_M, margins_m
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 
-_NEITHER = (None, None)
-
 
 class ContactFinder:
     """Find contacts with the tolerances of `contact.rule`, which depend on the objects' sizes.
@@ -171,7 +169,7 @@ class ContactFinder:
                 continue
             body_pair = self._pairs.made(body, other)
             if (
-                body_pair.rests == _NEITHER
+                body_pair.faller is None
                 and body_pair.pivot_m is None
                 and (apart_by(body, other, TOUCH_M) or body_pair.space.empty_region is not None)
             ):
@@ -195,4 +193,4 @@ class ContactFinder:
 
 def _may_rest(y: str, body_pair: BodyPair | None) -> bool:
     """Return True if y, one body of a pair, may rest on the other."""
-    return body_pair is not None and body_pair.rest(y) is not None
+    return body_pair is not None and body_pair.faller == y

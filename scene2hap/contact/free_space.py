@@ -16,18 +16,17 @@ import numpy as np
 
 from scene2hap.contact.body import Body, box_in_frame
 from scene2hap.contact.geometry.planes import Plane, floor_at, roof_at, wall_at
-from scene2hap.contact.geometry.triangle_tree import meeting
+from scene2hap.contact.geometry.triangle_tree import ALL, meeting
 from scene2hap.contact.geometry.vectors import AABB, Indices, Marks
 from scene2hap.contact.lazy import lazy
 from scene2hap.contact.ledge import Flat, FreeRegion, VerticalAxis
 from scene2hap.contact.mesh_distance import INSET, INSET_M
-from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m, is_over, play_reach_m
+from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m, play_reach_m, upper_of
 from scene2hap.contact.stance import TopFace
 
 _AROUND_M = 0.8  # The host is searched this far beyond a guest, so that later guests can use the region.
 _MANY_CORNERS = 8  # An outline with more corners is replaced by its circle.
 _ROUNDING_M = 2e-6
-_ALL = 1 << 60
 _NO_LEDGE: Flat = (math.inf, math.inf, -math.inf, -math.inf)
 
 
@@ -95,7 +94,7 @@ class FreeSpace:
         hu, hv = max(hu - inset_m, 0.0), max(hv - inset_m, 0.0)
         low = guest.low[up] - h - fall_reach_m(guest.size_m) - TOUCH_M
         # The upper surface of a host into which the guest is sunk a little may be above the guest.
-        high = guest.high[up] - h + TOUCH_M + (fall_reach_m(host.size_m) if is_over(host, guest) else 0.0)
+        high = guest.high[up] - h + TOUCH_M + (fall_reach_m(host.size_m) if upper_of(host, guest) is host else 0.0)
         return (mu - hu, mv - hv, low), (mu + hu, mv + hv, high)
 
     def planes(self, *, stands: bool) -> tuple[Plane, ...] | None:
@@ -104,7 +103,7 @@ class FreeSpace:
         Parameters: stands : True if the guest stands on the host's ledge, False if the region must be empty.
         """
         guest, host, own, lean, up = self.guest, self.host, self._own, self.host.stance.lean, self.host.up_axis
-        if own is None or lean is None or is_over(host, guest):
+        if own is None or lean is None or upper_of(host, guest) is host:
             return None
         known = self.region_below if stands else self.empty_region
         if not known or stands != (known.top_m is not None):
@@ -167,13 +166,13 @@ def _computed_region(host: Body, own: VerticalAxis, taken: AABB, foot: Flat) -> 
     if not len(columns):
         return _empty_region(host, own, taken)
     ledges = host.shape.ledges(own)
-    numbers, tops = ledges.number[columns], ledges.tops[columns]
+    tops = ledges.tops.take(columns)
     # The host's vertical sides reach as high as the ledge that they bound, so only level triangles name the ledge.
-    number = int(numbers[tops >= tops.max() - _ROUNDING_M].max())
+    number = max(ledges.number.take(columns[tops >= np.maximum.reduce(tops) - _ROUNDING_M]).tolist())
     if number < 0 or not ledges.covers(number, foot):
         return None
     top_m = ledges.heights[number]
-    if ((numbers != number) & (tops > top_m + _ROUNDING_M)).any():
+    if ((ledges.number.take(columns) != number) & (tops > top_m + _ROUNDING_M)).any():
         return None
     near = _Surroundings(host, own, taken)
     higher = (ledges.number[near.columns] != number) & (near.high[2] > top_m + _ROUNDING_M)
@@ -182,7 +181,7 @@ def _computed_region(host: Body, own: VerticalAxis, taken: AABB, foot: Flat) -> 
     return FreeRegion(own, box, top_m, ledges.stretch(number, foot, most))
 
 
-def _triangles_in(host: Body, own: VerticalAxis, box: AABB, most: int = _ALL) -> Indices:
+def _triangles_in(host: Body, own: VerticalAxis, box: AABB, most: int = ALL) -> Indices:
     """Return the columns of up to `most` of the host's triangles whose boxes overlap a box (u, v, h)."""
     (u0, v0, h0), (u1, v1, h1) = box
     if own.sign < 0:

@@ -125,9 +125,9 @@ class Holders:
     def _below(self, body: Body) -> tuple[Mapping[str, Support], Collection[str]]:
         """Return the supports of a body, and the ids of those on which it rests with a level base face."""
         body_pairs, reach_m = self._pairs.of[body.id], fall_reach_m(body.size_m)
-        rests = {y: rest for y, body_pair in body_pairs.items() if (rest := body_pair.rest(body.id)) is not None}
-        unclear = [y for y, rest in rests.items() if rest is NEEDS_TRIANGLES]
-        rests = {y: rest for y, rest in rests.items() if rest is not NEEDS_TRIANGLES}
+        found = [(y, body_pair.rest) for y, body_pair in body_pairs.items() if body_pair.faller == body.id]
+        unclear = [y for y, rest in found if rest is NEEDS_TRIANGLES]
+        rests = {y: rest for y, rest in found if rest is not None and rest is not NEEDS_TRIANGLES}
         falls_m = self._first_falls(body, unclear, min((rest.fall_m for rest in rests.values()), default=math.inf))
         if not falls_m:
             whole = [y for y, rest in rests.items() if rest.wholly]
@@ -167,10 +167,10 @@ class Holders:
             y
             for y in self._near[x]
             if (other := bodies[y]).size_m > size_m
-            and not self._pairs.hinged.are_chained(x, y)
             and y not in self._certified
             and not apart_by(body, other, reach_m)
-            and self._space(body, other).empty_region is None
+            and not self._pairs.hinged.are_chained(x, y)
+            and not self._is_clear(body, other)
         ]
         if not larger:
             return {}
@@ -187,10 +187,13 @@ class Holders:
             for y, share in shares.items()
         }
 
-    def _space(self, guest: Body, host: Body) -> FreeSpace:
-        """Return the free space of a larger body around a smaller one, that of their pair if they have one."""
+    def _is_clear(self, guest: Body, host: Body) -> bool:
+        """Return True if a larger body surely has nothing near a smaller one."""
         body_pair = self._pairs.of[guest.id].get(host.id)
-        return FreeSpace(guest, host) if body_pair is None else body_pair.space
+        if body_pair is None:
+            return FreeSpace(guest, host).empty_region is not None
+        # Where one may rest on the other, something of the host is in the path of the fall.
+        return body_pair.faller is None and body_pair.space.empty_region is not None
 
     def _body_pair(self, x: str, y: str) -> BodyPair:
         body_pair = self._pairs.of[x].get(y)
@@ -220,7 +223,7 @@ class Holders:
                 attachment, within_m = Attachment(share, NO_WAY, None, False, a), slack + play_m
         if attachment.weight <= 0:
             return None
-        rest = body_pair.rest(attachment.faller) if attachment.lies else None
+        rest = body_pair.rest if attachment.lies else None
         if rest is None:
             points = body_pair.points(attachment.way_m, within_m)
         else:

@@ -21,6 +21,5 @@ class lazy(Generic[_Value]):
     def __get__(self, instance: object | None, owner: type) -> lazy[_Value] | _Value:
         if instance is None:
             return self
-        value = self._derive(instance)
-        setattr(instance, self._name, value)
+        value = instance.__dict__[self._name] = self._derive(instance)
         return value

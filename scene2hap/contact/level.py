@@ -36,9 +36,10 @@ def rest_on(x: Body, y: Body) -> Rest | None:
 
     Where the outlines do not overlap, other parts of the two shapes still may.
     """
-    base_face, top_face = x.stance.posed_base_face, y.stance.top_face
+    top_face = y.stance.top_face
     if top_face is None:
         return None
+    base_face = x.stance.posed_base_face
     a, v_axis = x.up_axis, x.v_axis
     px, py = x.position_m, y.position_m
     top_m = py[a] + top_face.height

@@ -96,11 +96,11 @@ class MeshPair:
         """
         x, y, z = rotated(self._back, way_m)
         way = (x, y, z) if self.guest_is_a else (-x, -y, -z)
-        found = contact_points(
-            self.host.shape, self.guest.shape, self._turn, self._shift, way, max(within_m, ROUNDING_M)
-        )
-        ends = [(self._placed(on_guest), self._placed(on_host)) for on_guest, on_host in found]
-        return [ContactPoint(*pair) if self.guest_is_a else ContactPoint(*reversed(pair)) for pair in ends]
+        host, guest, place = self.host, self.guest, (self._rows, self.host.position_m)
+        ends = contact_points(host.shape, guest.shape, self._turn, self._shift, way, max(within_m, ROUNDING_M), place)
+        if self.guest_is_a:
+            return [ContactPoint(on_guest, on_host) for on_guest, on_host in ends]
+        return [ContactPoint(on_host, on_guest) for on_guest, on_host in ends]
 
     def drops(self, faller: Body, reach_m: float, touch_m: float) -> Floats | None:
         """Return the fall distance of each triangle (m,) of `faller`, one of the two, onto the other [m].
@@ -123,10 +123,6 @@ class MeshPair:
         limits = (faller.low[up] - self.host.position_m[up], reach_m, touch_m)
         frame = upright_frame(self._rows[up])
         return self.host.shape, self.guest.shape, self._turn, self._shift, frame, limits, faller is self.guest
-
-    def _placed(self, point: Triple) -> Triple:
-        (x, y, z), (u, v, w) = rotated(self._rows, point), self.host.position_m
-        return (x + u, y + v, z + w)
 
 
 @compiled
@@ -156,10 +152,14 @@ def closest_points(
 
 @compiled
 def contact_points(
-    host: Shape, guest: Shape, turn: Rows, shift: Triple, way: Triple, within: float
+    host: Shape, guest: Shape, turn: Rows, shift: Triple, way: Triple, within: float, place: tuple[Rows, Triple]
 ) -> list[tuple[Triple, Triple]]:
     """Return up to `spread.MAX_POINTS` pairs of points on guest and host that are at most `within` apart once the guest
-    has moved by `way`. The points on the guest are given before that movement. All [m], in the host's frame."""
+    has moved by `way`. The points on the guest are given before that movement.
+
+    Parameters: way, within : in the host's frame [m]; place : rotation and position [m] of the host in the world, in
+    which the points are returned.
+    """
     x, y, z = shift
     u, v, w = rotated(turn, _triple(guest.low))
     posed = _posed(guest.triangles, turn, (x + way[0], y + way[1], z + way[2]))
@@ -170,7 +170,7 @@ def contact_points(
     ends = ends[:, np.lexsort(ends[::-1])]
     middles = ((ends[:3] + ends[3:]) / 2).T.tolist()
     chosen = spread(middles, (u + x, v + y, w + z)) if middles else []
-    return [(_triple(ends[:3, k]), _triple(ends[3:, k])) for k in chosen]
+    return [(_placed(ends[:3, k], *place), _placed(ends[3:, k], *place)) for k in chosen]
 
 
 def _ends_within(host: Shape, guest: Shape, posed: Floats, way: Triple, within: float, loose: float) -> Floats:
@@ -262,6 +262,11 @@ def _product(one: Rows, other: Rows) -> Rows:
     """Return the matrix product."""
     columns = transposed(other)
     return (rotated(columns, one[0]), rotated(columns, one[1]), rotated(columns, one[2]))
+
+
+def _placed(point: Floats, turn: Rows, shift: Triple) -> Triple:
+    (x, y, z), (u, v, w) = rotated(turn, _triple(point)), shift
+    return (x + u, y + v, z + w)
 
 
 def _triple(point: Floats) -> Triple:

@@ -18,7 +18,7 @@ from scene2hap.contact.hinge import HingedBodies, pivot_m
 from scene2hap.contact.lazy import lazy
 from scene2hap.contact.level import Rest, rest_on
 from scene2hap.contact.mesh_distance import Gap, MeshPair
-from scene2hap.contact.rule import TOUCH_M, fall_reach_m, is_over
+from scene2hap.contact.rule import TOUCH_M, fall_reach_m, upper_of
 
 NEEDS_TRIANGLES = Rest(math.nan, False, math.nan)
 """Marks a fall distance that only triangles can give."""
@@ -35,10 +35,13 @@ class BodyPair:
         self.b: Body = b
         self.space: FreeSpace = FreeSpace(*roles(a, b))
         self.pivot_m: Triple | None = None if a.hinge is None and b.hinge is None else pivot_m(a, b)
-        # At least one of the two cannot rest on the other.
-        rest = None if a.id in hinged or self.pivot_m else rest_of(a, b, self.space)
-        is_held = rest is not None or b.id in hinged or self.pivot_m is not None
-        self.rests: tuple[Rest | None, Rest | None] = (rest, None if is_held else rest_of(b, a, self.space))
+        upper = None if self.pivot_m is not None else upper_of(a, b)
+        # How one body, the faller, may rest on the other; None if neither may. See `rest_of`.
+        self.rest: Rest | None = None
+        self.faller: str | None = None
+        if upper is not None and upper.id not in hinged:
+            self.rest = rest_of(upper, b if upper is a else a, self.space)
+            self.faller = None if self.rest is None else upper.id
         self._falls: dict[str, Floats | None] = {}
         self._first_falls_m: dict[str, float] = {}
         self._points: dict[tuple[Triple, float], tuple[Triple, ...]] = {}
@@ -50,10 +53,6 @@ class BodyPair:
     def of(cls, x: Body, y: Body, hinged: Container[str]) -> BodyPair:
         """Build the pair of two bodies, given in any order."""
         return cls(x, y, hinged) if x.id < y.id else cls(y, x, hinged)
-
-    def rest(self, x: str) -> Rest | None:
-        """Return how x, one of the two ids, may rest on the other; see `rest_of`."""
-        return self.rests[x != self.a.id]
 
     def first_fall_m(self, x: str, *, by_each: bool = False) -> float:
         """Return the least of the distances of `falls` [m], inf if there is none.
@@ -142,7 +141,7 @@ def support_normal(x: Body, y: Body) -> Triple:
 def rest_of(x: Body, y: Body, space: FreeSpace) -> Rest | None:
     """Return how x may rest on y: None if it cannot, `NEEDS_TRIANGLES` if only triangles can tell.
 
-    Parameters: space : the free space of the larger body around the smaller one.
+    Parameters: x : the upper one by `upper_of`; space : the free space of the larger body around the smaller one.
     """
     reach_m = fall_reach_m(x.size_m)
     up, v_axis = x.up_axis, x.v_axis
@@ -152,7 +151,6 @@ def rest_of(x: Body, y: Body, space: FreeSpace) -> Rest | None:
         or y.low[0] >= x.high[0]
         or x.low[v_axis] >= y.high[v_axis]
         or y.low[v_axis] >= x.high[v_axis]
-        or not is_over(x, y)
     ):
         return None
     rest = rest_on(x, y)

@@ -187,22 +187,23 @@ def hangs(gaps_m: Mapping[str, float], reach_m: float) -> dict[str, float]:
     return {name: share for name, share in shares.items() if share > 0}
 
 
-def is_over(x: Body, y: Body) -> bool:
-    """Return True if x may rest on y, by their AABBs; never true both ways.
+def upper_of(x: Body, y: Body) -> Body | None:
+    """Return the one of two bodies that may rest on the other, by their AABBs; None if neither may.
 
-    x is wholly above y, give or take `TOUCH_M`; or its bottom is higher than that of y; or its bottom is about as low
-    and x is wholly inside y, as in a room whose floor has no thickness. Two objects side by side on a floor are none of
-    these.
+    It is wholly above the other, give or take `TOUCH_M`; or its bottom is higher than that of the other; or its bottom
+    is about as low and it is wholly inside the other, as in a room whose floor has no thickness. Two objects side by
+    side on a floor are none of these.
     """
-    up = x.up_axis
+    up, v = x.up_axis, x.v_axis
     bottom_m, top_m, other_bottom_m, other_top_m = x.low[up], x.high[up], y.low[up], y.high[up]
     if bottom_m >= other_top_m - TOUCH_M or other_bottom_m >= top_m - TOUCH_M:
-        return bottom_m + top_m > other_bottom_m + other_top_m
+        above_m, other_above_m = bottom_m + top_m, other_bottom_m + other_top_m
+        return x if above_m > other_above_m else y if above_m < other_above_m else None
     if bottom_m > other_bottom_m + TOUCH_M:
-        return True
-    if bottom_m < other_bottom_m - TOUCH_M or top_m > other_top_m or x.size_m >= y.size_m:
-        return False
-    (a, b, c), (d, e, f), (g, h, i), (j, k, m) = x.low, x.high, y.low, y.high
-    if up == 1:
-        return a >= g and d <= j and c >= i and f <= m
-    return a >= g and d <= j and b >= h and e <= k
+        return x
+    if other_bottom_m > bottom_m + TOUCH_M:
+        return y
+    small, large = (x, y) if x.size_m < y.size_m else (y, x)
+    (a, b), (c, d) = (small.low, small.high), (large.low, large.high)
+    is_inside = b[up] <= d[up] and a[0] >= c[0] and b[0] <= d[0] and a[v] >= c[v] and b[v] <= d[v]
+    return small if is_inside and x.size_m != y.size_m else None

@@ -139,8 +139,8 @@ class BoxCentres(Mapping[str, Vector]):
 
 def own_middle_m(item: SceneObject) -> Vector:
     """Middle of the box around an object, in its own frame [m]."""
-    x, y, z = item.geometry.mesh.bounds_m.mean(axis=0).tolist()
-    return x, y, z
+    (a, b, c), (d, e, f) = item.geometry.mesh.bounds_m.tolist()
+    return (a + d) / 2, (b + e) / 2, (c + f) / 2
 
 
 def own_half_m(item: SceneObject) -> Vector:

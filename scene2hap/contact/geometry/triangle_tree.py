@@ -21,6 +21,9 @@ from scene2hap.contact.geometry.boxes import Boxes
 from scene2hap.contact.geometry.features import Features
 from scene2hap.contact.geometry.vectors import Indices, Triple
 
+ALL = 1 << 60
+"""More triangles than any mesh has."""
+
 
 class TriangleTree(NamedTuple):
     """The arrays of a tree.

@@ -182,8 +182,11 @@ class Landings:
                 change = _change(step[0], before)
                 if (
                     change >= _LEAST_CHANGE
-                    and (near := self._met(object_id))
-                    and (change >= _SUDDEN * dot(before, before) or not self._tracks.keys().isdisjoint(near))
+                    and (object_id in beside or object_id in self._near)
+                    and (
+                        change >= _SUDDEN * dot(before, before)
+                        or not self._tracks.keys().isdisjoint(self._met(object_id))
+                    )
                 ):
                     changed.append(object_id)
             elif (track.has_stopped(now) or track.has_stopped(now - 1)) and beside.get(object_id) and track.is_falling:
@@ -423,7 +426,7 @@ class Landings:
         Engines let small objects sink into others. Once the middle of an object is below the surface, the contact seems
         to be on its other side. The side from which the object came, since an update, is then the right one.
         """
-        middle_m = in_world(self._middle_m(object_id), self._graph.pose(object_id))
+        middle_m = in_world(self._tracks[object_id].own_m, self._graph.pose(object_id))
         outward = _difference(point_m, middle_m)
         normal = _given_normal(object_id, other, outward, junction)
         came = self._nearing(object_id, other, middle_m, since, self._n_updates)

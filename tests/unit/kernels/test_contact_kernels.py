@@ -92,7 +92,7 @@ def test_kernels_find_mesh_distances_bit_for_bit(seed: int) -> None:
             assert compiled == told or (told[0] <= ROUNDING_M and compiled[0] <= ROUNDING_M)
             plain, twin = both("contact.mesh_distance.contact_points")
             way = tuple(rng.uniform(-0.05, 0.05, 3).tolist()) if rng.random() < 0.5 else (0.0, 0.0, 0.0)
-            args = (*given, way, min(within_m, 0.05))
+            args = (*given, way, min(within_m, 0.05), (pair._rows, pair.host.position_m))
             assert twin(*args) == plain(*args)
             plain, twin = both("contact.mesh_distance.drops")
             limits = (float(rng.uniform(-0.4, 0.4)), float(rng.choice([0.01, 0.09])), 0.004)
