@@ -6,11 +6,15 @@ sounddevice is imported late and would end it first.
 PortAudio lists devices only at its start, so finding a device that was plugged in later needs a restart. A restart ends
 every stream, so it is done only while none of ours is open. The lock prevents that two threads call PortAudio at once;
 callbacks run without the lock.
+
+Windows lists a device once for each of its interfaces. The others are layers above WASAPI: MME cuts names to 31
+characters and adds latency, and PortAudio has it as its default. So WASAPI comes first here.
 """
 
 from __future__ import annotations
 
 import atexit
+import ctypes
 import sys
 import threading
 from collections.abc import Callable, Iterator
@@ -23,7 +27,15 @@ import numpy as np
 
 from scene2hap.errors import DeviceError, DeviceNotFound, MissingExtra
 
+WASAPI, MME = "Windows WASAPI", "MME"
+
+_AFTER_WASAPI = {"Windows DirectSound": 1, MME: 2, "Windows WDM-KS": 3}
+"""Order of Windows' other interfaces; the last one keeps a device from all other programs."""
+
+_COM_MULTITHREADED = 0
+
 _LOCK = threading.RLock()
+_this_thread = threading.local()
 _open_streams = 0
 
 
@@ -41,6 +53,11 @@ class Card:
     def may_drop_channels(self) -> bool:
         """True for a sound server behind ALSA: it takes any number of channels, and drops those that its card lacks."""
         return self.interface == "ALSA" and "(hw:" not in self.name
+
+    @property
+    def full_name(self) -> str:
+        """Name and interface, which together differ from those of all other devices."""
+        return f"{self.name}, {self.interface}"
 
     def __str__(self) -> str:
         return f"{self.index}: {self.name!r} ({self.interface}, {self.n_channels} channels, {self.rate_hz} Hz)"
@@ -73,11 +90,13 @@ def inputs() -> list[Card]:
 
 def default_input() -> int:
     """Return the index of the system's default input; negative if there is none."""
-    return int(_sounddevice().default.device[0])
+    return _default("default_input_device")
 
 
 def find_card(device: str | int | None) -> Card:
     """Return the output with an index, or with a name that is or contains `device`; None for the system's default.
+
+    The name may be followed by a comma and the interface, as in "Headphones, MME". Without it WASAPI comes first.
 
     Raises: DeviceNotFound; DeviceError: there is no PortAudio.
     """
@@ -190,27 +209,42 @@ def _restart() -> None:
 
 
 def named(device: str | int, known: list[Card]) -> Card | None:
-    """Return the device with an index, or the first whose name equals `device`, otherwise contains it."""
+    """Return the device with an index, or the first whose name equals `device`, otherwise contains it; with or without
+    its interface.
+    """
     if isinstance(device, int):
         return next((card for card in known if card.index == device), None)
     wanted = device.casefold()
-    exact = [card for card in known if card.name.casefold() == wanted]
-    return next(iter(exact or [card for card in known if wanted in card.name.casefold()]), None)
+    exact = [card for card in known if wanted in (card.name.casefold(), card.full_name.casefold())]
+    return next(iter(exact or [card for card in known if wanted in card.full_name.casefold()]), None)
 
 
 def _match(device: str | int | None) -> Card | None:
-    return named(int(_sounddevice().default.device[1]) if device is None else device, cards())
+    return named(_default("default_output_device") if device is None else device, cards())
+
+
+def _default(which: str) -> int:
+    """Return the index of the system's default device, on Windows that of WASAPI; negative if there is none."""
+    with _LOCK:
+        sd = _sounddevice()
+        default = int(sd.default.device[which == "default_output_device"])
+        of_interfaces = {str(item["name"]): int(item[which]) for item in sd.query_hostapis()}
+        # Another default than MME's was set by the program.
+        if default == of_interfaces.get(MME) and of_interfaces.get(WASAPI, -1) >= 0:
+            return of_interfaces[WASAPI]
+        return default
 
 
 def _devices(channels: str) -> list[Card]:
     with _LOCK:
         sd = _sounddevice()
         interfaces = [str(item["name"]) for item in sd.query_hostapis()]
-        return [
+        known = [
             Card(i, item["name"], interfaces[item["hostapi"]], item[channels], round(item["default_samplerate"]))
             for i, item in enumerate(sd.query_devices())
             if item[channels] > 0
         ]
+        return sorted(known, key=lambda card: _AFTER_WASAPI.get(card.interface, 0))
 
 
 def _started(stream: Any) -> Any:
@@ -235,7 +269,20 @@ def _sounddevice() -> Any:
             "reinstall the package sounddevice, which brings it."
         ) from cause
     atexit.unregister(sounddevice._exit_handler)  # in favour of `_end`
+    _initialize_com()
     return sounddevice
+
+
+def _initialize_com() -> None:
+    """Let this thread use WASAPI. PortAudio initializes COM in the thread that starts PortAudio alone, and opening a
+    stream in another fails with CO_E_NOTINITIALIZED (PortAudio's issue 250).
+
+    A main thread may belong to a window system, which chooses how COM runs there.
+    """
+    if sys.platform == "win32" and threading.current_thread() is not threading.main_thread():
+        if not hasattr(_this_thread, "has_com"):
+            ctypes.windll.ole32.CoInitializeEx(None, _COM_MULTITHREADED)
+        _this_thread.has_com = True
 
 
 @contextmanager

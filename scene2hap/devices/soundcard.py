@@ -69,7 +69,8 @@ class SoundCardSink(LiveSink):
     """Play each hand on a channel of a sound card.
 
     Parameters:
-    device : its name or a part of it, or PortAudio's index; None for the system's default.
+    device : its name or a part of it, if wanted with its interface ("Headphones, MME"), or PortAudio's index; None for
+        the system's default. On Windows, WASAPI comes first among the interfaces.
     channels : the channel of each hand, counted from 1: by name {"left": 3, "right": 4} or in the hands' order [3, 4];
         None for 1, 2, ... Channels without a hand stay silent.
     latency : of the device's buffer [s], or "low" or "high" for a value of its driver.

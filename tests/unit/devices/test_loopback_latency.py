@@ -167,7 +167,7 @@ def listed(monkeypatch: pytest.MonkeyPatch, *names: str, default: int) -> None:
     ]
     sounddevice = SimpleNamespace(
         default=SimpleNamespace(device=(default, 0)),
-        query_hostapis=lambda: [{"name": "ALSA"}],
+        query_hostapis=lambda: [{"name": "ALSA", "default_input_device": default, "default_output_device": 0}],
         query_devices=lambda: devices,
         _terminate=lambda: None,
         _initialize=lambda: None,
