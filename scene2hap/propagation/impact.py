@@ -7,6 +7,9 @@ accelerations
     contact     2 pi f_c J (1/m + pi f_c Y)        T = 2.87 (mu^2 / (R E*^2 v))^(1/5),   Y = 1 / (8 sqrt(D m'))
     modes       2 pi f_n J phi_n^2 S(f_n)          f_n of a plate that is supported along its edges
 
+A free body keeps the velocity J/m. It counts as the amplitude of a sine at f_c, with twice the acceleration of the half
+sine, which the body has only during the contact.
+
 R and E* are those of the contacts of resting objects (`coupled.contact_stiffness`): any two objects meet at a tip of 5
 mm. A fingertip is a linear spring k instead, with T = pi sqrt(mu / k) at any speed.
 
