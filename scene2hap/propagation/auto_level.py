@@ -33,6 +33,7 @@ from scene2hap.propagation.modal.modes import first_bending_hz, largest_static_r
 from scene2hap.propagation.plate import Plate
 
 N_FREQUENCIES = 40
+"""Frequencies at which the bound is evaluated, if bands have edges; it is smooth in frequency (assumed)."""
 _NARROWEST = 10.0
 """Ratio of sides above which the static receptance would take a large matrix; it is then not used."""
 

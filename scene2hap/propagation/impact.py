@@ -54,6 +54,7 @@ SHORTEST_S, LONGEST_S = 0.008, 0.1
 """Bounds on the time in which a mode falls to 1/e [s]: a shorter decay is a click; a longer one is damped by hands and
 by objects on the plate; assumed."""
 MOST_MODES = 5
+"""Most modes of a burst: each is a sine to sum for each hand, and weaker ones are hidden by the first (assumed)."""
 LEAST_SHARE = 0.01
 """Modes below this part of the strongest one are left out: the struck point is on a node of theirs."""
 HERTZ = 2.87
