@@ -249,7 +249,8 @@ def beam_hz(plate: Plate) -> float:
 def first_bending_hz(plate: Plate) -> float:
     """Lowest natural frequency above 0 [Hz], from above, at a thousandth of the cost of all modes.
 
-    It is within 1e-3, with clamped edges within 1e-2. A strip narrower than `_NARROWEST` counts as one of this width.
+    It is within 1e-3; on a strip with clamped ends within 1.1e-2. A strip narrower than
+    `_NARROWEST` counts as one of this width.
     """
     from scipy.linalg.lapack import dpotri
 
