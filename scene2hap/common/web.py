@@ -167,8 +167,8 @@ async def exchange(
     import httpx
 
     def authorise(request: httpx.Request) -> httpx.Request:
-        if authorization is not None and authorization():
-            request.headers["authorization"] = authorization()
+        if authorization is not None and (value := authorization()):
+            request.headers["authorization"] = value
         return request
 
     async def check(request: httpx.Request) -> None:
@@ -207,28 +207,33 @@ async def exchange(
             retryable=True,
         ) from _without_frames(cause, scrub)
     except (httpx.HTTPError, httpx.StreamError, httpx.InvalidURL) as cause:
-        never = isinstance(
-            cause, httpx.UnsupportedProtocol | httpx.LocalProtocolError | httpx.InvalidURL | httpx.TooManyRedirects
-        )
-        never = never or "CERTIFICATE_VERIFY_FAILED" in str(cause)  # of ssl, whose error httpx replaces by its own
         # No network lies between: nothing listens there. A server that loads its model may listen, and answers 503.
         is_absent = is_here and isinstance(cause, httpx.ConnectError)
-        never = never or (is_absent and place not in _HEARD_HERE)
+        remedy = "Check the network, the server and the address."
+        if is_absent:
+            remedy = "Start the server on this machine, and wait until it listens; or check the port."
+        if transport is None and not is_here and getproxies().keys() & {"http", "https", "all"}:
+            remedy += (
+                " It goes through the proxy of HTTP_PROXY, HTTPS_PROXY or ALL_PROXY, unless NO_PROXY names the host."
+            )
         problem = (scrub(str(cause)) or type(cause).__name__).rstrip(".")
-        proxy = " It goes through the proxy of HTTP_PROXY, HTTPS_PROXY or ALL_PROXY, unless NO_PROXY names the host."
-        what = (
-            "Start the server on this machine, and wait until it listens; or check the port."
-            if is_absent
-            else "Check the network, the server and the address."
-        )
+        is_lasting = _is_lasting(cause) or (is_absent and place not in _HEARD_HERE)
         raise BackendUnavailable(
-            f"{url} cannot be reached: {problem}. {what}"
-            f"{proxy if transport is None and not is_here and getproxies().keys() & {'http', 'https', 'all'} else ''}",
-            retryable=not never,
+            f"{url} cannot be reached: {problem}. {remedy}", retryable=not is_lasting
         ) from _without_frames(cause, scrub)
     if is_here:
         _HEARD_HERE.add(place)
     return WebReply(url, response.status_code, content, dict(response.headers))
+
+
+def _is_lasting(cause: Exception) -> bool:
+    """Return True for an error of a request that the same request would meet again."""
+    import httpx
+
+    is_refused = isinstance(
+        cause, httpx.UnsupportedProtocol | httpx.LocalProtocolError | httpx.InvalidURL | httpx.TooManyRedirects
+    )
+    return is_refused or "CERTIFICATE_VERIFY_FAILED" in str(cause)  # of ssl, whose error httpx replaces by its own
 
 
 async def _look_up(host: str) -> None:

@@ -41,6 +41,7 @@ from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
 
 SAMPLING_SHARE = 0.2
+"""Part of the tolerance [-] that coarser sampling of bands may use."""
 
 
 @dataclass(frozen=True, eq=False)

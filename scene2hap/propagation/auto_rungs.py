@@ -33,6 +33,7 @@ from scene2hap.propagation.plate import Plate
 FLOOR_DB = -40.0
 """Floor of gains in errors, re the source: lower gains count as this."""
 RIGID_DB = 250.0
+"""Error of the rigid rung where the top frequency is that of the first bending mode [dB]: 210 at worst in 600 draws."""
 FINENESS = {
     "coarse": Fineness(1.1 / math.pi, 3, 6, least_wider=0),
     "medium": Fineness(1.45 / math.pi, 3, 12, least_wider=0),
@@ -46,6 +47,7 @@ MODAL_DB = {
 """Error of each basis by the plate's edges: "free" has two free edges or more; the rest is "held", and quiet if sources
 cannot raise its level above `QUIET_DB`. Near a held edge a plate hardly moves, and small bases err most there."""
 QUIET_DB = 5.0
+"""Largest gain of a quiet plate [dB]; see `MODAL_DB`."""
 _COARSE_CELLS = 4
 """Resolution of a lattice that gives the first bending mode of an outline within some percent."""
 

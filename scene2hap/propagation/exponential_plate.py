@@ -182,7 +182,7 @@ class PathCosts(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class ExponentialField:
-    """A prepared field of the paper's law, by effective lengths L [m c]: Gamma = exp(-L sqrt(omega))."""
+    """A prepared field of the paper's law: Gamma = exp(-L sqrt(omega)), L [s^(1/2)] the cost of the cheapest path."""
 
     source_ids: tuple[str, ...]
     arrivals: Mapping[str, Arrivals]
@@ -193,7 +193,7 @@ class ExponentialField:
 
     def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
         """Gamma at points of one object; see `PropagationField`."""
-        length = arrivals_at(self.arrivals, self.cost_per_m, self.source_ids, object_id, points_m)
+        costs = arrivals_at(self.arrivals, self.cost_per_m, self.source_ids, object_id, points_m)
         is_dominant = self.bands.kind == "dominant"
-        gamma = GammaAt(self.dominant_hz)(length) if is_dominant else band_rms(length, self.bands.widths_hz())
-        return floored(gamma, length, self.floor)
+        gamma = GammaAt(self.dominant_hz)(costs) if is_dominant else band_rms(costs, self.bands.widths_hz())
+        return floored(gamma, costs, self.floor)

@@ -7,6 +7,9 @@ accelerations
     contact     2 pi f_c J (1/m + pi f_c Y)        T = 2.87 (mu^2 / (R E*^2 v))^(1/5),   Y = 1 / (8 sqrt(D m'))
     modes       2 pi f_n J phi_n^2 S(f_n)          f_n of a plate that is supported along its edges
 
+A free body keeps the velocity J/m. It counts as the amplitude of a sine at f_c, with twice the acceleration of the half
+sine, which the body has only during the contact.
+
 R and E* are those of the contacts of resting objects (`coupled.contact_stiffness`): any two objects meet at a tip of 5
 mm. A fingertip is a linear spring k instead, with T = pi sqrt(mu / k) at any speed.
 
@@ -51,6 +54,7 @@ SHORTEST_S, LONGEST_S = 0.008, 0.1
 """Bounds on the time in which a mode falls to 1/e [s]: a shorter decay is a click; a longer one is damped by hands and
 by objects on the plate; assumed."""
 MOST_MODES = 5
+"""Most modes of a burst: each is a sine to sum for each hand, and weaker ones are hidden by the first (assumed)."""
 LEAST_SHARE = 0.01
 """Modes below this part of the strongest one are left out: the struck point is on a node of theirs."""
 HERTZ = 2.87

@@ -50,6 +50,7 @@ from scene2hap.propagation.plate import Plate
 CELLS_PER_WAVE = 4.0
 """Fewest cells in a bending wavelength; with four, the lattice turns it 0.7 % too fast."""
 FINEST = 256
+"""Most cells along the narrow side: a square plate then has two thirds of `MOST_NODES`."""
 LEAST_LIMIT_HZ = 1.0
 """Vibration below this frequency is not felt, so a lattice with a lower limit is of no use: the plate has no edges."""
 

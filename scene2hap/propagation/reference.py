@@ -37,6 +37,7 @@ NEAR_M = 0.1
 LARGEST = 1e3
 """Largest factor by which a source is raised or lowered [-], so that faint sources are not raised without limit."""
 _N_AROUND = 8
+"""Points on the ring around a source, over which its level is averaged (assumed: some of them are near nodes)."""
 
 
 @clear_construction

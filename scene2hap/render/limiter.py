@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 from scene2hap.compiled import compiled
 
 THRESHOLD = 10 ** (-3 / 20)
+"""Level from which samples are changed, t [-]: 3 dB below full scale."""
 NOTHING = 1e-7
 """A smaller reduction [Np] is not applied: 1e-6 dB."""
 RELEASE_S = 1.0

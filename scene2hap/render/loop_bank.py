@@ -35,6 +35,7 @@ thread that releases the lock may have to wait for a game's whole update.
 """
 
 _SPAN_S = 1.0
+"""Longest time that a stored loop is repeated for, to get nearest to a whole number of samples [s]."""
 _FADE = (0.5 - 0.5 * np.cos(np.pi * np.arange(1, CELL + 1) / CELL)).astype(np.float32)
 
 Block = NDArray[np.float32]

@@ -47,6 +47,7 @@ INAUDIBLE = 2.0**-40
 """Smaller values in the filters' endless tails count as zero, so that silence becomes exact."""
 
 _ROUNDING = 2.0**-23
+"""Rounding of a sample to float32, relative to full scale: a slew at the limit must not exceed it after that."""
 
 
 @dataclass(frozen=True)

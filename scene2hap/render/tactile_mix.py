@@ -30,6 +30,7 @@ from scene2hap.compiled import compiled
 from scene2hap.render.loop_bank import CELL, Block, LoopBank
 
 MOST_SLOTS = 40
+"""Most sets of gains in transition at once, which bounds the product of a cell; see `TactileMix`."""
 
 _SMALL_PRODUCT = 2**18
 """OpenBLAS starts threads for more multiplications than this, and an audio thread must not wait for them."""

@@ -28,6 +28,7 @@ PASS_HZ = 1000.0
 """End of the filter's flat pass band [Hz]; higher frequencies are not felt."""
 
 IMAGE_DB = 80.0
+"""Least attenuation of images [dB]: below the threshold of touch (45 dB below full scale) and hardly audible."""
 
 _MOST_KEPT = 64
 """Most matrices that are cached; 44.1 kHz has 10. Rates with a small common divisor have up to f_in matrices, which are

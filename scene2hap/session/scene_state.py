@@ -12,7 +12,7 @@ from scene2hap.errors import UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.propagation.protocol import Body, ContactNetwork
 from scene2hap.scene.geometry import Vector
-from scene2hap.scene.objects import Contact, SceneObject, unknown_object
+from scene2hap.scene.objects import VERTICAL, Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import RemovedIds
@@ -120,7 +120,7 @@ class SceneState:
     def is_closed(self, object_id: str, other: str, way: RelativePoses) -> bool:
         """Whether an object is a drawer, or the like, that another encloses where the scene has it: see `slams`."""
         item, holder, pose = self.objects[object_id], self.objects[other], self.graph.pose
-        up_axis = {"y": 1, "z": 2}[self._scene.up_axis]
+        up_axis = VERTICAL[self._scene.up_axis]
         return is_closed(item, holder, way, (pose(object_id), pose(other)), up_axis)
 
     def on_plate(self, object_id: str, point_m: tuple[float, float, float]) -> tuple[float, float] | None:

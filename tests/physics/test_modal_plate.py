@@ -39,6 +39,23 @@ def test_little_ripples_along_the_axes_through_a_force() -> None:
         assert np.linalg.norm(found - exact) < 0.0075 * np.linalg.norm(exact)
 
 
+@pytest.mark.parametrize("poisson_ratio", [0.3, 0.45])
+def test_driven_points_near_free_edges_are_those_of_a_far_larger_basis(poisson_ratio: float) -> None:
+    """A free edge raises the near field of a force, the more the larger Poisson's ratio. The image in the edge must do
+    so too: with the same weight for all ratios, 1.29, errors are 0.035 and 0.039 dB."""
+    plate = Plate(0.6, 0.4, 0.01, Material("test", 700.0, 11e9, poisson_ratio, 0.02))
+    parts = (0.0, 0.005, 0.01, 0.02, 0.03, 0.05)
+    points = np.array([(x * 0.6, 0.17) for x in parts] + [(0.26, y * 0.4) for y in parts])
+    f = np.geomspace(20.0, 400.0, 40)
+    larger = replace(FINE, per_k_length=2.5 * FINE.per_k_length, least=56)
+    body, exact = (ModalBody(plate, 400.0, 0.02, fineness) for fineness in (FINE, larger))
+    errors_db = [
+        20 * np.log10(np.abs(body.receptance(at, at.copy(), f) / exact.receptance(at, at.copy(), f)))
+        for at in points[:, None]
+    ]
+    assert np.percentile(np.abs(errors_db), 95) < 0.03
+
+
 def db_apart(one: NDArray[np.complex128], other: NDArray[np.complex128]) -> NDArray[np.float64]:
     return np.abs(20 * np.log10(np.abs(one / other)))
 

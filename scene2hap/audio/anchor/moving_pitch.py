@@ -18,15 +18,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.audio.spectra.components import Signal, components, magnitudes
+from scene2hap.audio.spectra.components import Signal, magnitudes, strongest_component
 
 STRETCH_S = 0.5
+"""Length of the stretches in which levels and pitch are taken [s]."""
 _LEAST_STRETCHES = 4
+"""Fewest stretches from which a range is taken: a sound of two seconds."""
 _LEAST_SHARE = 0.5
 """Least share of stretches with a line; a sound with fewer has no pitch [-]."""
 _LEAST_Q = 0.2
+"""Least Q of a band [-]: wider ones hold all that is felt."""
 _LOST_DB = 3.0
-_FAINTEST_DB = -14.0
+"""Attenuation of the line at the ends of the band [dB]."""
 
 
 class MovingPitch(NamedTuple):
@@ -54,8 +57,8 @@ def moving_pitch(x: Signal, sample_rate_hz: float, range_hz: tuple[float, float]
     """
     size = round(STRETCH_S * sample_rate_hz)
     stretches = x[: len(x) // size * size].reshape(-1, size)
-    found = [components(magnitudes(one), sample_rate_hz, range_hz, _FAINTEST_DB, 1) for one in stretches]
-    lines_hz = [one[0].hz for one in found if one and one[0].is_line]
+    found = [strongest_component(magnitudes(one), sample_rate_hz, range_hz) for one in stretches]
+    lines_hz = [one.hz for one in found if one is not None and one.is_line]
     if len(lines_hz) < max(_LEAST_STRETCHES, _LEAST_SHARE * len(stretches)):
         return None
     low, high = (float(hz) for hz in np.percentile(lines_hz, (5, 95)))

@@ -36,7 +36,15 @@ from scene2hap.audio.anchor.moving_pitch import MovingPitch, growth_db, moving_p
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.levels import drive_db, felt_level_of_spectrum_db
 from scene2hap.audio.protocol import ConversionContext
-from scene2hap.audio.spectra.components import LINE_DB, Component, Signal, components, magnitudes, strongest_bands_hz
+from scene2hap.audio.spectra.components import (
+    LINE_DB,
+    Component,
+    Signal,
+    components,
+    magnitudes,
+    strongest_bands_hz,
+    strongest_component,
+)
 from scene2hap.audio.spectra.heard import heard
 from scene2hap.audio.threshold import NOTICED_DB, TACTILE_RANGE_HZ, threshold_db
 from scene2hap.haptics import ActuatorProfile
@@ -66,15 +74,19 @@ ROUGH_HZ = (20.0, 80.0)
 _SLOW_HZ = 60.0
 """Highest frequency of a component that is rather felt as roughness alone than as a tone that misses its level."""
 RANGE_HZ = (20.0, 1000.0)
+"""Range of components that may be felt as tones [Hz]."""
 _HIGHEST_HZ = 10_000.0
+"""Highest frequency at which the strongest component of all is looked for [Hz]."""
 CARRIER_RANGE_HZ = (100.0, 300.0)
 """Range of carriers [Hz], in which a burst of 8 ms still has a frequency, and touch is sensitive."""
 _OTHER_RATIO = 1.25
+"""Least ratio of the anchor to a slower component that is kept as its roughness: nearer ones are one component."""
 _BEEP_RATIO = 1.5
 """Least ratio of own to felt frequency of a beep; moving sources apart gives at most 1.26, a third of an octave."""
 _OVERSAMPLED = 16.0
 """Half the sample rate at which a band's peak is searched, over the band's frequency: the peak is found to 0.04 dB."""
 _GRID = 81
+"""Frequencies at which `reachable_hz` looks for the limits of a move."""
 
 
 @dataclass(frozen=True)
@@ -116,13 +128,13 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
     x = np.asarray(samples, dtype=np.float64)
     magnitude = magnitudes(x)  # of all: the flank of the high-pass would turn a slope into a peak
     audible_hz = RANGE_HZ[0], min(_HIGHEST_HZ, 0.45 * sample_rate_hz)
-    audible = components(magnitude, sample_rate_hz, audible_hz, -300.0, 1)
-    if not audible:
+    loudest = strongest_component(magnitude, sample_rate_hz, audible_hz)
+    if loudest is None:
         return None
     low_hz = RANGE_HZ[0], min(RANGE_HZ[1], 0.45 * sample_rate_hz)
-    low = components(magnitude, sample_rate_hz, low_hz, FAINTEST_DB, 1)
-    is_heard_low = bool(low) and low[0].level_db >= audible[0].level_db + FAINTEST_BELOW_WHINE_DB
-    strongest = low[0] if is_heard_low else audible[0]
+    low = strongest_component(magnitude, sample_rate_hz, low_hz)
+    is_heard_low = low is not None and low.level_db >= loudest.level_db + FAINTEST_BELOW_WHINE_DB
+    strongest = low if low is not None and is_heard_low else loudest
     needs = _Needs(heard(x[: fast_length(len(x))], sample_rate_hz), sample_rate_hz, level_db, actuator)
     candidates: list[float] = []
     if is_heard_low:
@@ -136,7 +148,6 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
     # A slow one is kept as the roughness of a line that reaches the level.
     identity_hz = strongest.hz if strongest.hz > _SLOW_HZ else 0.0
     found, missed_db = needs.first_met(candidates, strongest_hz=identity_hz)
-    loudest = audible[0]
     if not loudest.is_line:  # the highest peak of noise is anywhere
         bands = strongest_bands_hz(magnitude, sample_rate_hz, audible_hz, 0.0)
         loudest = loudest._replace(hz=bands[0]) if bands else loudest

@@ -50,6 +50,11 @@ def components(
     return [Component(hz, level_db, _above_noise_db(magnitude, k)) for k, hz, level_db in found]
 
 
+def strongest_component(magnitude: Signal, sample_rate_hz: float, range_hz: tuple[float, float]) -> Component | None:
+    """Return the highest peak of a spectrum from `magnitudes` within a range, None without any."""
+    return next(iter(components(magnitude, sample_rate_hz, range_hz, 0.0, 1)), None)
+
+
 def peaks(
     magnitude: Signal, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float, most: int = _MOST
 ) -> list[tuple[int, float, float]]:

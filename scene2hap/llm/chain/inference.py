@@ -13,7 +13,7 @@ import asyncio
 import os
 from collections.abc import Awaitable, Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, TypeVar, cast
+from typing import Any, NamedTuple, TypeVar, cast
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
@@ -145,6 +145,14 @@ class _Analysis:
     analyst: str
     states: tuple[SourceState, ...]
     describers: tuple[str, ...]
+
+
+class _Mass(NamedTuple):
+    """The mass of an object [kg], None if unknown; its origin, and a doubt about it, each "" for none."""
+
+    kg: float | None = None
+    origin: str = ""
+    doubt: str = ""
 
 
 class _Chain:
@@ -326,18 +334,18 @@ class _Chain:
             "size": answer.size_reason,
             "vibration": answer.vibration_reason,
         }
-        mass_kg, weighed_by, mass_doubt = self._mass(item, answer, estimate.material, found.analyst)
-        if mass_kg is not None:
-            provenance["mass_kg"] = weighed_by
+        mass = self._mass(item, answer, estimate.material, found.analyst)
+        if mass.kg is not None:
+            provenance["mass_kg"] = mass.origin
         feet = _feet(answer)
         if feet is not None:
             provenance["feet"] = found.analyst
-        if mass_doubt:
-            reasons["mass"] = mass_doubt
-            self._report.doubts[item.id] = (mass_doubt,)
+        if mass.doubt:
+            reasons["mass"] = mass.doubt
         if doubts:
-            self._report.doubts[item.id] = (*doubts, *self._report.doubts.get(item.id, ()))
             reasons["size"] = "; ".join((answer.size_reason, *doubts))
+        if every_doubt := (*doubts, *filter(None, (mass.doubt,))):
+            self._report.doubts[item.id] = every_doubt
         if estimate.flags:
             reasons["material"] = "; ".join(estimate.flags)
         return ObjectHaptics(
@@ -351,25 +359,22 @@ class _Chain:
             confidence=answer.confidence,
             reasons=reasons,
             provenance=provenance,
-            mass_kg=mass_kg,
+            mass_kg=mass.kg,
             feet=feet,
         )
 
-    def _mass(
-        self, item: SceneObject, answer: ObjectAnswer, material: Material | None, analyst: str
-    ) -> tuple[float | None, str, str]:
-        """Return the mass of an object [kg] or None, the source of the mass, and a doubt about it ("" if none)."""
+    def _mass(self, item: SceneObject, answer: ObjectAnswer, material: Material | None, analyst: str) -> _Mass:
         # Simulators give frames and helpers placeholders such as 1e-8 kg.
         if item.mass_kg is not None and LEAST_MASS_KG <= item.mass_kg <= MOST_MASS_KG:
-            return item.mass_kg, "scene", ""
+            return _Mass(item.mass_kg, "scene")
         mass_kg, whole_m = answer.estimated_mass_kg, item.whole_size_m(self._scene.up_axis)
         if mass_kg is None:
-            return None, "", ""
+            return _Mass()
         if why := mass_fault(mass_kg, whole_m):
-            return None, "", f"mass: {why}; none is used"
+            return _Mass(doubt=f"mass: {why}; none is used")
         if material is not None:
             mass_kg = bounded_mass_kg(mass_kg, whole_m, material.density_kg_m3)
-        return mass_kg, analyst, ""
+        return _Mass(mass_kg, analyst)
 
     def _with_unmet_needs(self, object_id: str, haptics: ObjectHaptics, categories: Mapping[str, str]) -> ObjectHaptics:
         """Add a note to each state that needs a contact no object here offers. Such a state stays silent until then."""

@@ -20,32 +20,32 @@ cdef class BandRms:
         self.scales = np.sqrt(2 / np.diff(hz) / (8 * np.pi))
         self.least = sqrt(LEAST / float((b[: len(b) - 1] * np.diff(b)).min()))
 
-    def __call__(self, lengths):
+    def __call__(self, costs):
         cdef Py_ssize_t i, k, n_bands = self.scales.shape[0]
-        cdef double length, x, here, before
+        cdef double cost, x, here, before
         cdef double* row
         cdef double* edges = &self.edges[0]
-        gains = np.empty((len(lengths), n_bands))
+        gains = np.empty((len(costs), n_bands))
         cdef double[:, ::1] rows = gains
-        for i, length in enumerate(lengths):
+        for i, cost in enumerate(costs):
             row = &rows[i, 0]
-            if length >= self.least:
-                x = fmax(-edges[0] * length, -MOST)
+            if cost >= self.least:
+                x = fmax(-edges[0] * cost, -MOST)
                 before = (x - 1) * exp(x)
                 for k in range(n_bands):
-                    x = fmax(-edges[k + 1] * length, -MOST)
+                    x = fmax(-edges[k + 1] * cost, -MOST)
                     here = (x - 1) * exp(x)
-                    row[k] = sqrt(here - before) * self.scales[k] / length
+                    row[k] = sqrt(here - before) * self.scales[k] / cost
                     before = here
             else:
                 for k in range(n_bands):
-                    row[k] = near(length, self.roots[k], self.widths[k]) if length > 0 else 1.0
+                    row[k] = near(cost, self.roots[k], self.widths[k]) if cost > 0 else 1.0
         return gains
 
 
-cdef double near(double length, double u1, double width) noexcept:
-    """Return the gain of a band for a length so short that the difference would lose digits."""
-    cdef double b = 2 * sqrt(2 * M_PI) * length, x = b * width, first, second
+cdef double near(double cost, double u1, double width) noexcept:
+    """Return the gain of a band for a cost so low that the difference would lose digits."""
+    cdef double b = 2 * sqrt(2 * M_PI) * cost, x = b * width, first, second
     if x < 1e-2:
         first = 1 - x / 2 + x * x / 6 - x * x * x / 24 + x * x * x * x / 120
         second = 0.5 - x / 3 + x * x / 8 - x * x * x / 30 + x * x * x * x / 144

@@ -1,4 +1,4 @@
-"""The root mean square of exp(-L sqrt(2 pi f)) over bands of frequency.
+"""The root mean square over bands of exp(-L sqrt(2 pi f)), the paper's attenuation at a path cost L [s^(1/2)].
 
     mean square = 2 / (f2 - f1) * integral from u1 to u2 of u exp(-b u) du,  u = sqrt(f),  b = 2 L sqrt(2 pi)
                 = 2 / ((f2 - f1) b^2) * (g(b u1) - g(b u2)),                 g(x) = (1 + x) exp(-x)
@@ -22,13 +22,13 @@ _MOST = 700.0  # Beyond this exp(-x) becomes a denormal number, which processors
 _LEAST = 1e-3
 
 
-def band_rms(length: NDArray[np.float64], edges_hz: NDArray[np.float64]) -> NDArray[np.float64]:
+def band_rms(costs: NDArray[np.float64], edges_hz: NDArray[np.float64]) -> NDArray[np.float64]:
     """Compute the gains of any bands to full precision.
 
-    Parameters: length : (...) float64, >= 0, may be infinite; edges_hz : (n_bands, 2) [Hz].
+    Parameters: costs : L (...) float64 [s^(1/2)], >= 0, may be infinite; edges_hz : (n_bands, 2) [Hz].
     Returns: (..., n_bands) float64 [-], in [0, 1].
     """
-    b = 2 * math.sqrt(2 * math.pi) * np.minimum(length, 1e6)[..., None]  # beyond 1e6 nothing is left of exp(-b u)
+    b = 2 * math.sqrt(2 * math.pi) * np.minimum(costs, 1e6)[..., None]  # beyond 1e6 nothing is left of exp(-b u)
     u1, u2 = np.sqrt(edges_hz[:, 0]), np.sqrt(edges_hz[:, 1])
     width = u2 - u1
     x = b * width
@@ -39,14 +39,16 @@ def band_rms(length: NDArray[np.float64], edges_hz: NDArray[np.float64]) -> NDAr
     )
     mean_square = 2 * np.exp(-b * u1) * (u1 * width * first + width**2 * second) / (u2**2 - u1**2)
     gains: NDArray[np.float64] = np.sqrt(np.clip(mean_square, 0.0, 1.0))
-    gains[length == 0] = 1.0  # exactly 1: the source itself
+    gains[costs == 0] = 1.0  # exactly 1: the source itself
     return gains
 
 
 @compiled
 class BandRms:
-    """Gains of adjacent bands between rising edges [Hz], for a few lengths at a time: by the difference of g where it
-    keeps 12 digits."""
+    """Gains of adjacent bands between rising edges [Hz], for a few path costs at a time.
+
+    They are computed by the difference of g where it keeps 12 digits.
+    """
 
     def __init__(self, edges_hz: Sequence[float]) -> None:
         edges = np.array(edges_hz)
@@ -57,11 +59,11 @@ class BandRms:
         self._minus_edges = -b[:, None]
         self._scales = np.sqrt(2 / np.diff(edges) / (8 * math.pi))[:, None]
 
-    def __call__(self, lengths: Sequence[float]) -> NDArray[np.float64]:
-        """Gains (n, n_bands) [-] for n lengths, >= 0, may be infinite."""
-        length = np.array(lengths)
-        small = np.flatnonzero(length < self._least)
-        by_difference = length.copy()
+    def __call__(self, costs: Sequence[float]) -> NDArray[np.float64]:
+        """Gains (n, n_bands) [-] for n costs [s^(1/2)], >= 0, may be infinite."""
+        given = np.array(costs)
+        small = np.flatnonzero(given < self._least)
+        by_difference = given.copy()
         by_difference[small] = self._least
         minus_x = self._minus_edges * by_difference
         np.maximum(minus_x, -_MOST, out=minus_x)
@@ -73,5 +75,5 @@ class BandRms:
         found /= by_difference
         gains: NDArray[np.float64] = np.ascontiguousarray(found.T)
         if small.size:
-            gains[small] = band_rms(length[small], self._bands_hz)
+            gains[small] = band_rms(given[small], self._bands_hz)
         return gains

@@ -5,15 +5,16 @@ and touches its support if the sag exceeds the unevenness of surfaces. The sag o
 
     w = a^2 / D (0.0116 F + 0.00406 q a^2)
 
-The contact above a layer has Hertz's stiffness. Through the layer the force spreads by half a right angle, from Hertz's
-spot to a larger area of the support:
+The contact above a layer has Hertz's stiffness, which includes what yields around the spot. Through the layer the force
+spreads in a cone, by half a right angle, from the spot to a larger area of the support. The spring below is a column of
+that area, without the narrow part of the cone, which Hertz's stiffness includes:
 
-    k = pi E (r + h)^2 / h
+    k = pi E (r + h)^2 / h                    of the whole cone it would be pi E r (r + h) / h
 
 Letters: w [m], a [m] the layer's shorter side, D [N m], F [N] force in the middle, q [N/m2] weight per area, k [N/m],
 E [Pa], r [m] radius of the spot, h [m] thickness.
 Source: Timoshenko, Woinowsky-Krieger, Theory of Plates and Shells (1959), sections 30 and 34, tables 8 and 23, for the
-sag; the cone is that of bolted members (Shigley, Mechanical Engineering Design, chapter 8).
+sag; the cone is that of bolted members (Shigley, Mechanical Engineering Design, chapter 8), the column assumed.
 """
 
 from __future__ import annotations

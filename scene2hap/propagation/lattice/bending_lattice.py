@@ -27,6 +27,7 @@ LONGEST = 16
 _SLACK = 0.01
 """Fraction by which cells of outlines may be larger, so that a polygon for a circle has as many cells as the circle."""
 _STRAIGHT_RAD = 1e-3
+"""Slant of an outline up to which its notches count as along the grid [rad]: a millimetre on a metre."""
 MOST_NODES = 100_000
 """Most nodes of a lattice: its factors then fill about a gigabyte."""
 

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 
 _MOST_WEIGHTS = 1024
+"""Most weights of contacts whose cost is kept; a lifted object has another weight in each frame."""
 
 _FAINTEST = 1e-5
 """Gain [-] below which a point is not searched for: a path over a whole level would take seconds. Impacts are played

@@ -14,6 +14,7 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, wait
 from dataclasses import dataclass
 from threading import Lock
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -97,16 +98,34 @@ class MixerInstance:
         self._gains, self._slots, self._last_request = gains, slots, None
 
 
-_Route = tuple[MixerInstance, list[int] | None, list[int], list[int], Indices | None]
-"""A mixer, the columns of the gains that it plays, their slots, its outputs, and their channels; None for all."""
+class _Route(NamedTuple):
+    """The part of the gains that one mixer plays.
+
+    columns : of the gains (n_hands, n_columns, n_bands), None for all; slots : of these columns in the mixer's bank;
+    outputs : of the mixer; channels : rows of the gains for these outputs, None for all.
+    """
+
+    mixer: MixerInstance
+    columns: list[int] | None
+    slots: list[int]
+    outputs: list[int]
+    channels: Indices | None
+
+
+class _PlannedMixer(NamedTuple):
+    """A mixer, those of its outputs that belong to a present hand, and the channels of these hands."""
+
+    mixer: MixerInstance
+    outputs: Indices
+    channels: Indices
 
 
 @dataclass(frozen=True, eq=False)
 class _Plan:
-    """The present outputs and mixers: a token of each output; each mixer, its used outputs, and their channels."""
+    """The present outputs, a token for each, and the mixers that play them."""
 
     hands: tuple[int, ...]
-    mixers: tuple[tuple[MixerInstance, Indices, Indices], ...]
+    mixers: tuple[_PlannedMixer, ...]
 
     @property
     def n_channels(self) -> int:
@@ -219,9 +238,10 @@ class Playback:
         """Ramp to gains (n_hands, n_columns, n_bands) of some active rows (None for all), and to 0 for the others."""
         if self._paused_from is not None:
             return
-        for mixer, own, slots, outputs, channels in self._routes_of(active, columns):
-            ours = gains if own is None else gains[:, own]
-            mixer.move_to(ours if channels is None else ours[channels], slots, outputs, at_frame)
+        for route in self._routes_of(active, columns):
+            played = gains if route.columns is None else gains[:, route.columns]
+            played = played if route.channels is None else played[route.channels]
+            route.mixer.move_to(played, route.slots, route.outputs, at_frame)
 
     @property
     def n_bursts(self) -> int:
@@ -252,17 +272,17 @@ class Playback:
         routes = self._routes.get(key)
         if routes is None:
             rows = active if columns is None else [active[x] for x in columns]
-            routes = self._routes[key] = [self._route(rows, *gained) for gained in self._plan.mixers]
+            routes = self._routes[key] = [self._route(rows, planned) for planned in self._plan.mixers]
         return routes
 
-    def _route(self, rows: Sequence[LoopRow], mixer: MixerInstance, outputs: Indices, channels: Indices) -> _Route:
+    def _route(self, rows: Sequence[LoopRow], planned: _PlannedMixer) -> _Route:
         # Rows whose loops are still being prepared have no place, or that of the row that they replace.
         places = [(i, self._places[row]) for i, row in enumerate(rows) if row in self._places]
         # Mixers of one bank share its slots.
-        own = [i for i, place in places if place.bank.slots is mixer.bank.slots]
-        slots = [place.slot for _, place in places if place.bank.slots is mixer.bank.slots]
-        is_alone = len(self._plan.mixers) == 1
-        return mixer, None if len(own) == len(rows) else own, slots, outputs.tolist(), None if is_alone else channels
+        own = [(i, place.slot) for i, place in places if place.bank.slots is planned.mixer.bank.slots]
+        columns = None if len(own) == len(rows) else [i for i, _ in own]
+        channels = None if len(self._plan.mixers) == 1 else planned.channels
+        return _Route(planned.mixer, columns, [slot for _, slot in own], planned.outputs.tolist(), channels)
 
     def change_rows(
         self, rows: Sequence[LoopRow], at_frame: int, instead: tuple[LoopRow, LoopRow] | None = None
@@ -417,9 +437,9 @@ class Playback:
         self._routes.clear()
         mixers, hands = [], tuple(self._hands.values())
         for mixer in self._mixers:
-            gained = [(i, hands.index(hand)) for i, hand in enumerate(mixer.hands) if hand in hands]
-            outputs, channels = np.array(gained, dtype=np.intp).reshape(-1, 2).T
-            mixers.append((mixer, outputs, channels))
+            present = [(i, hands.index(hand)) for i, hand in enumerate(mixer.hands) if hand in hands]
+            outputs, channels = np.array(present, dtype=np.intp).reshape(-1, 2).T
+            mixers.append(_PlannedMixer(mixer, outputs, channels))
         return _Plan(hands, tuple(mixers))
 
     def _new_bank(self, n_rows: int) -> SlotBank:

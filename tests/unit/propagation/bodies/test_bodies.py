@@ -102,6 +102,18 @@ def test_the_quick_first_mode_is_the_first_mode(edges: str, size: tuple[float, f
     assert first_bending_hz(plate) == pytest.approx(frequencies[frequencies > 1e-6][0], rel=2e-3)
 
 
+@pytest.mark.parametrize("aspect", [30.0, 1e3, 3e3, 1e5])
+@pytest.mark.parametrize(
+    ("edges", "root", "error"), [("FFFF", 4.7300407, 1e-3), ("SFFF", 3.9266023, 1e-3), ("CFFF", 1.8751041, 1e-2)]
+)
+def test_the_first_mode_of_a_strip_is_that_of_a_beam(edges: str, root: float, error: float, aspect: float) -> None:
+    """Euler and Bernoulli's beam, whose sides are free to curve: E h^2 / (12 rho) instead of D / (rho h)."""
+    thickness_m = 0.1 / aspect
+    wave_m2_s = thickness_m * math.sqrt(STEEL.youngs_modulus_pa / (12 * STEEL.density_kg_m3))
+    strip = Plate(1.0, 1.0 / aspect, thickness_m, STEEL, edges)
+    assert first_bending_hz(strip) == pytest.approx(root**2 / (2 * math.pi) * wave_m2_s, rel=error)
+
+
 def test_world_points_are_mapped_to_the_body() -> None:
     turn = Pose((1.0, 2.0, 3.0), (0.5**0.5, 0.0, 0.0, 0.5**0.5))  # z of the plate points along -y
     network = ContactNetwork({"p": Plate(1.0, 0.5, 0.01, OAK), "r": RigidBody(1.0)}, (), {"p": turn})
