@@ -44,6 +44,19 @@ def test_objects_and_states_of_a_manifest_are_those_of_the_bundle(tmp_path: Path
         assert header["frame_count"] / header["sample_rate_hz"] == pytest.approx(state["duration_s"])
 
 
+def test_a_manifest_says_which_sources_run_and_rest_in_turns(tmp_path: Path) -> None:
+    _, bundle = table_with_two_phones()
+    haptics = bundle.objects["phone"]
+    ringing = replace(next(one for one in haptics.states if one.name == "ringing"), on_s=2.0, off_s=4.0)
+    states = tuple(ringing if one.name == "ringing" else one for one in haptics.states)
+    bundle = replace(bundle, objects={**bundle.objects, "phone": replace(haptics, states=states)})
+    export_bundle(bundle, tmp_path, "pcm")
+    manifest = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))
+    phone = next(one for one in manifest["sources"] if one["object_id"] == "phone")
+    turns = {state["name"]: (state["on_s"], state["off_s"]) for state in phone["states"]}
+    assert turns == {"ringing": (2.0, 4.0), "alarm": (None, None)}
+
+
 def test_files_of_sources_that_are_gone_are_removed(tmp_path: Path) -> None:
     _, bundle = table_with_two_phones()
     export_bundle(bundle, tmp_path, ["wav", "haptic"])
