@@ -46,8 +46,8 @@ class StateEntry(_Part):
     level_db: float | None = Field(description="over the threshold of touch, on the actuator [dB]")
     start_up_s: float
     wind_down_s: float
-    on_s: float | None = Field(description="it runs so long, in turns with off_s [s]; null: without a rest")
-    off_s: float | None = Field(description="it rests so long [s]")
+    on_s: float | None = Field(default=None, description="it runs so long, in turns with off_s [s]; null: always")
+    off_s: float | None = Field(default=None, description="it rests so long [s]")
     credit: dict[str, str]
     files: tuple[FileEntry, ...]
 
