@@ -73,10 +73,13 @@ def _inferred(haptics: ObjectHaptics) -> Iterator[tuple[str, str]]:
         yield "mass", f"{float(f'{haptics.mass_kg:.3g}'):g} kg"
     if haptics.feet is not None:
         yield "feet", haptics.feet.name
+    yield "vibrates", "yes" if haptics.vibrates else "no"
     for state in haptics.states:
         yield f"intensity {state.name}", f"{state.intensity:.2f}"
         yield f"start {state.name}", f"{state.start_up_s:g} s"
         yield f"stop {state.name}", f"{state.wind_down_s:g} s"
+        if state.on_s is not None and state.off_s is not None:
+            yield f"turns {state.name}", f"{state.on_s:g} s on, {state.off_s:g} s off"
 
 
 def _material(haptics: ObjectHaptics) -> str:

@@ -29,6 +29,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from scene2hap.audio.clip import Credit
 from scene2hap.audio.files import encoded, read_clip
+from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle.checking import warn_of_unknown_fields
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.corrections import FORMAT as CORRECTIONS_FORMAT
@@ -203,7 +204,12 @@ def _read(folder: Path, overrides: Mapping[str, Override] | None) -> BundleConte
         _require_objects(objects, scene)
     with _reading(folder / "loops.json"):
         rows, sounds = read_json(folder, "loops.json"), SoundReader(folder)
-        loops = {key: {state: sounds.loop(row) for state, row in states.items()} for key, states in rows.items()}
+        loops: dict[str, dict[str, HapticLoop]] = {}
+        for key, states in rows.items():
+            loops[key] = {}
+            for state, row in states.items():
+                with _reading(folder / "loops.json", f"{key[:200]!r}, state {state[:200]!r}: "):
+                    loops[key][state] = sounds.loop(row)
         choices = {
             key: {state: "\n".join(row["choice"]) for state, row in states.items() if "choice" in row}
             for key, states in rows.items()

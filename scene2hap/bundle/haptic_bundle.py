@@ -41,7 +41,7 @@ def _named(place: object) -> Iterator[None]:
         raise type(cause)(f"{checks.shown(place) if isinstance(place, str) else place}: {cause}") from cause
 
 
-_OF_SOURCES = ("clip", "gain_db", "intensity", "pitch_hz", "start_up_s", "wind_down_s")
+_OF_SOURCES = ("clip", "gain_db", "intensity", "pitch_hz", "start_up_s", "wind_down_s", "muted")
 """Corrections that only a vibrating object takes."""
 
 

@@ -42,6 +42,8 @@ COMMANDS = {
 }
 """Every command with its line in the list of commands. Its module is imported when the command is given."""
 
+_WITH_UNIT = re.compile(r"(-[0-9.]+)\s*db", re.IGNORECASE)
+"""A level below zero with its unit, which argparse takes for an option."""
 _DOCS = (
     "Documentation by task: docs/README.md in the folder of the source. Every command: docs/command-line.md, or "
     "scene2hap COMMAND --help. In Python: help(scene2hap.HapticSession)."
@@ -148,6 +150,8 @@ class CommandParser(argparse.ArgumentParser):
                 and not is_option
                 and not self._negative_number_matcher.match(text)
             ):
+                if number := _WITH_UNIT.fullmatch(text):
+                    return f". {text!r} is not a number; write it without its unit, as {number[1]}"
                 return f". {text!r} is read as an option; write -- before names, or ./{text} for a file"
         return ""
 

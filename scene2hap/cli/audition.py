@@ -22,7 +22,7 @@ from scene2hap.devices.wav import WavSink
 from scene2hap.errors import ConfigError, DeviceError
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.objects import SceneObject
-from scene2hap.session import HapticSession, Touch
+from scene2hap.session import HapticSession, Touch, UserProfile
 
 HAND = "right"
 MOST_S = 600.0
@@ -48,8 +48,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     bundle = HapticBundle.load(arguments.bundle)
     config = session_config(arguments.settings, bundle, prepare="blocking")
     wav = WavSink(arguments.output) if arguments.output else None
+    user = _for_one_hand(arguments.profile)
     output = SinkOutput(wav or SINKS.build(given_spec("--sink", arguments.sink)))
-    with HapticSession(bundle, config=config, hands=(HAND,), sink=output.sink, user=arguments.profile) as session:
+    with HapticSession(bundle, config=config, hands=(HAND,), sink=output.sink, user=user) as session:
         silence(session, [], [arguments.id])
         session.set_source(arguments.id, state=arguments.state, mute=False)
         touch = Touch(HAND, arguments.id, _middle(session.snapshot.object(arguments.id)))
@@ -69,6 +70,14 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     if arguments.output:
         console.say(f"wrote {arguments.output}")
     return {"source": arguments.id, "state": arguments.state, "wav": arguments.output}
+
+
+def _for_one_hand(path: str | None) -> UserProfile | None:
+    """Read a profile without its other hands, which a session of one hand would take for wrong names."""
+    if path is None:
+        return None
+    profile = UserProfile.parse(path)
+    return profile.model_copy(update={"hands": {hand: one for hand, one in profile.hands.items() if hand == HAND}})
 
 
 def _why_silent(haptics: ObjectHaptics, name: str | None) -> str:

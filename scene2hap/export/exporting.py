@@ -22,7 +22,9 @@ from scene2hap.clips.reading import is_haptic_clip, read_haptic_clip
 from scene2hap.clips.synthesis import RATE_HZ, synthesize
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
+from scene2hap.common.counted import counted
 from scene2hap.common.text_files import require_place, write_whole
+from scene2hap.common.warning import warn_of
 from scene2hap.devices.memory import MemorySink
 from scene2hap.errors import ConfigError, ExportError, unwritable
 from scene2hap.export.fidelity import fidelity
@@ -62,6 +64,7 @@ def export_bundle(
     Raises: ConfigError: an unknown kind or setting; SessionError: touches that cannot be played; ExportError: the
     folder cannot be written. Files are written atomically, the manifest last. Then files of these kinds are removed
     that an earlier manifest of this scene lists for a source, and the new one does not.
+    Warns: SceneWarning: files of other kinds or of another scene stay, and the new manifest does not list them.
     """
     exporters, folder = _exporters(to), _place(folder)
     if not isinstance(bundle, HapticBundle):
@@ -206,6 +209,8 @@ def _write(
         if before is not None and now is not None and before[0] == now[0]:
             gone = sorted(name for name in before[1] - {*report.files} if name.partition("/")[0] in exporters)
             report = replace(report, removed=tuple(name for name in gone if _remove(folder, name)))
+        if before is not None:
+            _warn_of_unlisted(folder, before[0], before[1] - {*report.files, *report.removed})
     return report
 
 
@@ -217,6 +222,18 @@ def _files_of_sources(folder: Path) -> tuple[str, set[str]] | None:
         return None
     states = [state for source in found.sources for state in source.states]
     return found.scene, {name for state in states for entry in state.files for name in entry.files}
+
+
+def _warn_of_unlisted(folder: Path, scene: str, names: set[str]) -> None:
+    """Warn of files of an earlier export that stay, but that the new manifest does not list. Warns: SceneWarning."""
+    left = sorted(name for name in names if (folder / name).is_file())
+    if left:
+        kinds = ", ".join(dict.fromkeys(name.partition("/")[0] for name in left))
+        warn_of(
+            f"{folder / NAME} no longer lists {counted(len(left), 'file')} of an earlier export of {scene!r}, which "
+            f"{'stays' if len(left) == 1 else 'stay'} in the folder: {kinds}. Export all kinds of a scene in one call, "
+            "and each scene into a folder of its own."
+        )
 
 
 def _remove(folder: Path, name: str) -> bool:

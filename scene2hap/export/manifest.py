@@ -46,6 +46,8 @@ class StateEntry(_Part):
     level_db: float | None = Field(description="over the threshold of touch, on the actuator [dB]")
     start_up_s: float
     wind_down_s: float
+    on_s: float | None = Field(default=None, description="it runs so long, in turns with off_s [s]; null: always")
+    off_s: float | None = Field(default=None, description="it rests so long [s]")
     credit: dict[str, str]
     files: tuple[FileEntry, ...]
 
@@ -54,8 +56,8 @@ class SourceEntry(_Part):
     """An object that vibrates. The first state is the initial one."""
 
     object_id: str
-    gain_db: float
-    muted: bool
+    gain_db: float = Field(description="a person's level for it, contained in neither files nor paths [dB]")
+    muted: bool = Field(description="silent until a game unmutes it")
     states: tuple[StateEntry, ...]
 
 
@@ -144,6 +146,8 @@ def _state(bundle: HapticBundle, source: str, name: str, files: tuple[FileEntry,
         level_db=loop.felt.level_db if loop.felt is not None else None,
         start_up_s=inferred.start_up_s,
         wind_down_s=inferred.wind_down_s,
+        on_s=inferred.on_s,
+        off_s=inferred.off_s,
         credit=vars(loop.audible.credit),
         files=files,
     )

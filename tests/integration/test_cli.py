@@ -244,6 +244,15 @@ def test_numbers_in_any_spelling_are_no_options(capsys: pytest.CaptureFixture[st
         assert "there is no folder 'no.bundle'" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("level", ["-6dB", "-6.5 db"])
+def test_a_level_with_its_unit_is_explained(capsys: pytest.CaptureFixture[str], level: str) -> None:
+    with pytest.raises(SystemExit):
+        main(["edit", "some.bundle", "gain", "fan", level])
+    said = capsys.readouterr().err
+    assert f"{level!r} is not a number; write it without its unit, as {level.split('d')[0].strip()}" in said
+    assert "read as an option" not in said
+
+
 @pytest.mark.parametrize("words", [("inspect", "-x.glb"), ("edit", "some.bundle", "mute", "-fan")])
 def test_a_name_like_an_option_is_explained(capsys: pytest.CaptureFixture[str], words: tuple[str, ...]) -> None:
     with pytest.raises(SystemExit):

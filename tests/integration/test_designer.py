@@ -156,6 +156,22 @@ def test_a_muted_source_is_silent_until_the_game_unmutes_it(folder: Path) -> Non
     assert session.update(touches=[touch]).gain("left", "smartphone") > 0.1
 
 
+def test_audition_takes_a_profile_of_the_other_hand_without_a_warning(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    profile = Path("ada.json")
+    hands = {"left": {"gain_db": -20.0}, "right": {"gain_db": -6.0}}
+    peaks = []
+    for named in ({}, {"left": hands["left"]}, hands):
+        profile.write_text(json.dumps({"user": {"hands": named}}), encoding="utf-8")
+        words = ["audition", str(folder), "smartphone", "-o", "phone.wav", "--seconds", "1", "--profile", str(profile)]
+        assert main([*words, "-q"]) == 0
+        assert capsys.readouterr().err == ""
+        peaks.append(float(np.abs(soundfile.read("phone.wav")[0]).max()))
+    assert peaks[1] == peaks[0]  # the hand of an audition is the right one
+    assert peaks[2] == pytest.approx(peaks[0] * 10 ** (-6 / 20), rel=0.01)
+
+
 def test_audition_writes_one_source_alone(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["edit", str(folder), "mute", "smartphone", "-q"]) == 0  # an audition also plays muted sources
     assert outcome(capsys, "audition", str(folder), "smartphone", "-o", "phone.wav", "--seconds", "2")["wav"]

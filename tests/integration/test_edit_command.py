@@ -522,6 +522,27 @@ def test_a_comparison_shows_sizes_and_constants(
     assert rows[1].other.endswith("0.03 m")
 
 
+def test_a_comparison_says_whether_an_object_vibrates_and_runs_in_turns(
+    fan: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = shutil.copytree(fan, tmp_path / "before.bundle")
+    path = fan / "objects.json"
+    objects = json.loads(path.read_text())
+    objects["fan"]["states"][0].update(on_s=4.0, off_s=6.5)
+    path.write_text(json.dumps(objects))
+    (row,) = differences(HapticBundle.load(before), HapticBundle.load(fan))
+    assert tuple(row) == ("fan", "turns on", "-", "4 s on, 6.5 s off")
+    assert main(["edit", str(fan), "silence", "fan"]) == 0
+    assert "fan, vibrates: yes -> no" in capsys.readouterr().out
+
+
+def test_muting_an_object_that_does_not_vibrate_warns(
+    kitchen: Callable[..., Path], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["edit", str(kitchen()), "mute", "oak table", "-q"]) == 0
+    assert "'oak table' does not vibrate; muted will change nothing until it does" in capsys.readouterr().err
+
+
 def unreadable(folder: Path) -> dict[str, bytes]:
     """Edit a bundle by hand so that it cannot be read, and return its files."""
     (folder / "overrides.json").write_text('{"fann": {"gain_db": -6}}', encoding="utf-8")

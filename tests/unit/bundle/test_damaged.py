@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import soundfile
 
 from scene2hap import HapticBundle, materials
 from scene2hap.bundle import BundleWarning
@@ -169,6 +170,14 @@ def test_source_missing_from_objects_json_is_refused(folder: Path, capsys: pytes
     path.write_text(json.dumps({key: row for key, row in whole.items() if key != "table"}))
     assert main(["report", str(folder), "table"]) == 1
     assert "no properties were inferred for it" in capsys.readouterr().err
+
+
+def test_a_loop_that_an_audio_editor_has_cut_is_named_by_object_and_state(folder: Path) -> None:
+    path = folder / "sounds" / "phone.ringing.tactile.wav"
+    samples, rate_hz = soundfile.read(path)
+    soundfile.write(path, samples[:-1], rate_hz, subtype="PCM_24")
+    with pytest.raises(BundleIncomplete, match=r"loops\.json: 'phone', state 'ringing': the audible loop has"):
+        HapticBundle.load(folder)
 
 
 def test_a_file_that_is_too_large_is_not_read(folder: Path) -> None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import warnings
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from scene2hap import SceneWarning
 from scene2hap.export import export_bundle
 from scenes import table_with_two_phones
 
@@ -44,13 +46,27 @@ def test_objects_and_states_of_a_manifest_are_those_of_the_bundle(tmp_path: Path
         assert header["frame_count"] / header["sample_rate_hz"] == pytest.approx(state["duration_s"])
 
 
+def test_a_manifest_says_which_sources_run_and_rest_in_turns(tmp_path: Path) -> None:
+    _, bundle = table_with_two_phones()
+    haptics = bundle.objects["phone"]
+    ringing = replace(next(one for one in haptics.states if one.name == "ringing"), on_s=2.0, off_s=4.0)
+    states = tuple(ringing if one.name == "ringing" else one for one in haptics.states)
+    bundle = replace(bundle, objects={**bundle.objects, "phone": replace(haptics, states=states)})
+    export_bundle(bundle, tmp_path, "pcm")
+    manifest = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))
+    phone = next(one for one in manifest["sources"] if one["object_id"] == "phone")
+    turns = {state["name"]: (state["on_s"], state["off_s"]) for state in phone["states"]}
+    assert turns == {"ringing": (2.0, 4.0), "alarm": (None, None)}
+
+
 def test_files_of_sources_that_are_gone_are_removed(tmp_path: Path) -> None:
     _, bundle = table_with_two_phones()
     export_bundle(bundle, tmp_path, ["wav", "haptic"])
     (tmp_path / "wav" / "mine.wav").write_bytes(b"mine")
     gone = next(key for key in bundle.loops if key != "phone")
     before = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*.*")}
-    report = export_bundle(bundle.override(gone, vibrates=False), tmp_path, "wav")
+    with pytest.warns(SceneWarning, match=r"manifest\.json no longer lists 3 files of an earlier export"):
+        report = export_bundle(bundle.override(gone, vibrates=False), tmp_path, "wav")
     after = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*.*")}
     # The format that was not written again stays, and so does what no manifest lists.
     assert before - after == {*report.removed}
@@ -58,6 +74,23 @@ def test_files_of_sources_that_are_gone_are_removed(tmp_path: Path) -> None:
     assert all(name.startswith("wav/") for name in report.removed)
     assert "wav/mine.wav" in after
     assert not any(b"smpl" not in path.read_bytes() for path in (tmp_path / "wav").glob("phone*.wav"))
+
+
+def test_an_export_beside_one_of_another_scene_or_kind_warns(tmp_path: Path) -> None:
+    scene, bundle = table_with_two_phones()
+    export_bundle(bundle, tmp_path, ["wav", "haptic"])
+    n_loops = sum(map(len, bundle.loops.values()))
+    with pytest.warns(
+        SceneWarning, match=rf"lists {n_loops} files .* of 'test room', which stay in the folder: haptic\. "
+    ):
+        export_bundle(bundle, tmp_path, "wav")
+    other = replace(bundle, snapshot=replace(scene, name="attic")).override("phone", vibrates=False)
+    with pytest.warns(SceneWarning, match="an earlier export of 'test room', which stay in the folder: wav"):
+        export_bundle(other, tmp_path, "wav")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", SceneWarning)
+        for _ in range(2):
+            export_bundle(other, tmp_path / "attic", "wav")
 
 
 def test_no_file_outside_is_removed_for_a_manifest_that_lists_it(tmp_path: Path) -> None:
