@@ -12,6 +12,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
 
+from scene2hap.common.renaming import replace
+
 MAX_BYTES = 1 << 24
 """Most bytes of one file; assumed: a hundred times the largest handwritten one, and parsed in seconds."""
 
@@ -127,7 +129,7 @@ def put_in_place(draft: Path, path: Path) -> None:
     """Replace a file by its draft, whose content is on the disk before. Raises: OSError."""
     with draft.open("rb+") as file:
         os.fsync(file.fileno())
-    os.replace(draft, path)
+    replace(draft, path)
 
 
 def write_whole(path: Path, content: str | bytes) -> None:

@@ -1,7 +1,6 @@
 """Reading small user files, limited in size and without waiting for pipes; writing files whole or not at all."""
 
 import os
-import sys
 import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
@@ -19,6 +18,7 @@ from scene2hap.clips.ahap import read_ahap
 from scene2hap.common.text_files import draft_of, drafts_of, read_small, read_small_text, write_whole
 from scene2hap.errors import AudioError, ConfigError, Scene2HapError
 from scene2hap.llm.prompts import Prompts
+from systems import needs_long_names
 
 
 def test_the_memory_of_a_read_is_that_of_the_file_and_not_of_the_limit(tmp_path: Path) -> None:
@@ -135,7 +135,7 @@ def test_a_device_or_a_pipe_is_not_replaced_by_a_file(tmp_path: Path) -> None:
 TOO_LONG = "x" * 5000
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="Windows calls a name that is too long absent")
+@needs_long_names
 @pytest.mark.parametrize(
     ("use", "error"),
     [
@@ -156,7 +156,7 @@ def test_a_name_that_no_file_can_have_is_an_error_of_ours(use: Callable[[str], o
         use(TOO_LONG)
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="Windows calls a name that is too long absent")
+@needs_long_names
 def test_a_sound_is_not_converted_to_a_name_that_no_file_can_have(tmp_path: Path) -> None:
     sound = tmp_path / "a.wav"
     soundfile.write(sound, np.full(800, 0.1), 8000)
