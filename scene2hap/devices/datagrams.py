@@ -54,13 +54,24 @@ class Datagrams:
         if self._socket is None:
             raise DeviceLost(f"{self._place} is not open.")
         try:
+            self._take_report(self._socket)
             self._socket.send(data)
-        except ConnectionRefusedError as cause:
+        except (ConnectionRefusedError, ConnectionResetError) as cause:  # the latter is that of Windows
             raise DeviceLost(f"nobody listens at {self._place}. Start the receiver there.") from cause
         except OSError as cause:
             if cause.errno not in _FULL:
                 raise DeviceLost(f"{self._place} cannot be reached: {reason_of(cause)}. Check the network.") from cause
             self.not_sent += 1
+
+    @staticmethod
+    def _take_report(own: socket.socket) -> None:
+        """Raise the report of a closed port, if one has come. Windows gives it to a read alone, not to `send`."""
+        try:
+            own.recv(1)
+        except (ConnectionRefusedError, ConnectionResetError):
+            raise
+        except OSError:  # nothing has come, or on Windows a longer datagram
+            return
 
     def close(self, *farewell: bytes) -> None:
         """Send the datagrams `farewell` and close. Never raises; may be called twice."""
