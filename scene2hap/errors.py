@@ -238,6 +238,7 @@ ACCESS_DENIED, SHARING_VIOLATION, LOCK_VIOLATION = 5, 32, 33
 _TO_DO_ON_WINDOWS = {
     ACCESS_DENIED: "Close the program that has it or a file in it open, or remove its write protection.",
     **dict.fromkeys((SHARING_VIOLATION, LOCK_VIOLATION), "Close the program that has it open."),
+    123: 'Use no < > : " | ? * in a name.',  # ERROR_INVALID_NAME
     206: "Give a shorter path.",  # ERROR_FILENAME_EXCED_RANGE
 }
 

@@ -51,7 +51,9 @@ def require_replaceable(target: Path) -> None:
     would move away.
     """
     place = _resolved(target)
-    above = next(folder for folder in place.parents if os.path.exists(folder))
+    above = next((folder for folder in place.parents if os.path.exists(folder)), None)
+    if above is None:  # on Windows
+        raise BundleError(f"{target} cannot be written: there is no drive or share {place.anchor}. Name another.")
     if not above.is_dir() or not os.access(above, os.W_OK | os.X_OK):
         raise BundleError(f"{target} cannot be written: {above} is no folder of yours. Choose another place.")
     try:
@@ -177,7 +179,8 @@ def _put(
                 (retire or discard)(old, place)
             except (OSError, BundleError) as cause:
                 warning = (
-                    f"{target} is written, but {old}, which it replaces, cannot be moved or removed: {reason_of(cause)}"
+                    f"{target} is written, but {old}, which it replaces, cannot be moved or removed: "
+                    f"{reason_of(cause).removesuffix('.')}. Remove it when no program has a file of it open."
                 )
                 warn_of(warning, BundleWarning)
         return

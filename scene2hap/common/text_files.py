@@ -6,6 +6,7 @@ import errno
 import os
 import re
 import stat
+import sys
 import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -59,7 +60,12 @@ def read_small(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) -> byte
 def opened_regular(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
     """Open a regular file for reading. Raises: OSError, ValueError: there is no such file, or it is no regular file."""
     # O_NONBLOCK: opening a pipe would block. The open file is checked, since its path may have been replaced meanwhile.
-    descriptor = os.open(Path(path), os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+    try:
+        descriptor = os.open(Path(path), os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+    except PermissionError:
+        if Path(path).is_dir():  # Windows opens no folder, and gives no reason
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path)) from None
+        raise
     with os.fdopen(descriptor, "rb") as file:
         if not stat.S_ISREG(os.fstat(descriptor).st_mode):
             raise ValueError("it is a folder, a pipe or a device; give a file")
@@ -87,9 +93,13 @@ def require_place(path: Path) -> None:
     Raises: OSError: a folder or a device is there, one above is no folder of yours, or a name is too long.
     """
     draft_path(path)
+    if sys.platform == "win32" and len(path.name) > _LONGEST_NAME:  # it calls such a name absent
+        raise OSError(errno.ENAMETOOLONG, os.strerror(errno.ENAMETOOLONG))
     if path.is_dir():
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
-    above = next(folder for folder in path.absolute().parents if folder.exists())
+    above = next((folder for folder in path.absolute().parents if folder.exists()), None)
+    if above is None:
+        raise FileNotFoundError(errno.ENOENT, f"there is no drive or share {path.absolute().anchor}")
     if not above.is_dir():
         raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR))
     if not os.access(above, os.W_OK | os.X_OK):

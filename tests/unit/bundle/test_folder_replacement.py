@@ -120,6 +120,13 @@ def test_invalid_folder_name_is_refused(tmp_path: Path, name: str, monkeypatch: 
     assert sorted(tmp_path.rglob("*")) == before
 
 
+def test_a_drive_that_does_not_exist_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """On Windows, a drive may be unplugged, and then not even the root of a path exists."""
+    monkeypatch.setattr(os.path, "exists", lambda path: False)
+    with pytest.raises(BundleError, match="there is no drive or share"):
+        require_replaceable(tmp_path / "room")
+
+
 @needs_long_names
 def test_long_folder_name_is_accepted(tmp_path: Path) -> None:
     for _ in range(2):

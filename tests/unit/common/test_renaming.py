@@ -100,6 +100,7 @@ def test_windows_rejects_the_replacement_of_an_open_file(tmp_path: Path) -> None
         (5, "Close the program that has it or a file in it open, or remove its write protection."),
         (32, "Close the program that has it open."),
         (33, "Close the program that has it open."),
+        (123, 'Use no < > : " | ? * in a name.'),
         (206, "Give a shorter path."),
         (3, "Choose a folder that exists and is yours."),
     ],

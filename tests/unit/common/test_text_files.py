@@ -15,7 +15,7 @@ from scene2hap.audio.sources.library import FolderLibrary
 from scene2hap.bridge.config import BridgeConfig
 from scene2hap.bundle.folder_replacement import require_replaceable
 from scene2hap.clips.ahap import read_ahap
-from scene2hap.common.text_files import draft_of, drafts_of, read_small, read_small_text, write_whole
+from scene2hap.common.text_files import draft_of, drafts_of, read_small, read_small_text, require_place, write_whole
 from scene2hap.errors import AudioError, ConfigError, Scene2HapError
 from scene2hap.llm.prompts import Prompts
 from systems import needs_long_names
@@ -165,3 +165,23 @@ def test_a_sound_is_not_converted_to_a_name_that_no_file_can_have(tmp_path: Path
     (failure,) = convert_files([sound], tmp_path / TOO_LONG)
     assert isinstance(failure, Failure)
     assert "too long" in failure.reason
+
+
+def test_a_drive_that_does_not_exist_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Path, "exists", lambda path: False)
+    with pytest.raises(FileNotFoundError, match="there is no drive or share"):
+        require_place(tmp_path / "sub" / "a.wav")
+
+
+def test_a_folder_is_called_one_where_it_cannot_be_opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Windows says "Permission denied" of a folder that is opened as a file."""
+
+    def deny(path: Path, flags: int) -> int:
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr(os, "open", deny)
+    with pytest.raises(IsADirectoryError):
+        read_small(tmp_path)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(PermissionError):
+        read_small(tmp_path / "file")
