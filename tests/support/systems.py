@@ -33,3 +33,5 @@ needs_long_names = pytest.mark.skipif(
 needs_removal_of_open_files = pytest.mark.skipif(
     sys.platform == "win32", reason="Windows keeps a file that a program has open"
 )
+
+needs_signals = pytest.mark.skipif(sys.platform == "win32", reason="on Windows `os.kill` ends a process at once")
