@@ -74,7 +74,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             screen.update(player.view(frame, output.problem, watch.problem))
             time.sleep(UPDATE_S)
     if not output.has_played:
-        console.warn(f"nothing was played: {output.problem or 'the actuator did not start'}")
+        reason = (output.problem or "the actuator did not start.").removesuffix(" Trying again.")
+        console.warn(f"nothing was played: {reason} Connect the actuator, or give another --sink.")
     return {"bundle": arguments.bundle, "ended_on": player.on, "played": output.has_played}
 
 
