@@ -232,10 +232,22 @@ _TO_DO = {
     errno.ENAMETOOLONG: "Give a shorter name.",
 }
 
+ACCESS_DENIED, SHARING_VIOLATION, LOCK_VIOLATION = 5, 32, 33
+"""`winerror` of Windows: no right, or an open file in a folder that is moved; an open file; a locked one."""
+
+_TO_DO_ON_WINDOWS = {
+    ACCESS_DENIED: "Close the program that has it or a file in it open, or remove its write protection.",
+    **dict.fromkeys((SHARING_VIOLATION, LOCK_VIOLATION), "Close the program that has it open."),
+    123: 'Use no < > : " | ? * in a name.',  # ERROR_INVALID_NAME
+    206: "Give a shorter path.",  # ERROR_FILENAME_EXCED_RANGE
+}
+
 
 def unwritable(what: object, cause: OSError, otherwise: str = "Choose a folder that exists and is yours.") -> str:
     """Return the message for a file or folder that cannot be written: its name, the reason, and what to do.
 
-    Parameters: otherwise : what to do, unless the disk is full or the name is too long.
+    Parameters: otherwise : what to do, unless the disk is full, the name is too long, or Windows says that a program
+    has the file open.
     """
-    return f"{what} cannot be written: {reason_of(cause)}. {_TO_DO.get(cause.errno or 0, otherwise)}"
+    to_do = _TO_DO_ON_WINDOWS.get(getattr(cause, "winerror", None) or 0) or _TO_DO.get(cause.errno or 0, otherwise)
+    return f"{what} cannot be written: {reason_of(cause).removesuffix('.')}. {to_do}"

@@ -22,7 +22,7 @@ from scene2hap.bridge.connection import Connection
 from scene2hap.bridge.host import Host
 from scene2hap.bridge.hosted_session import error_message
 from scene2hap.bridge.messages import VERSION, Hello, parse_request, read_document
-from scene2hap.bridge.udp import FrameDatagrams
+from scene2hap.bridge.udp import FrameDatagrams, ignore_closed_ports
 from scene2hap.common import checks
 from scene2hap.errors import BridgeError, ConfigError, Scene2HapError
 from scene2hap.propagation import MODELS
@@ -96,6 +96,7 @@ class BridgeServer:
         transport, _ = await loop.create_datagram_endpoint(
             lambda: FrameDatagrams(self.host.with_key), local_addr=(self.config.host, self.port)
         )
+        ignore_closed_ports(transport.get_extra_info("socket").fileno())
         self.host.udp_port = transport.get_extra_info("sockname")[1]
         return transport
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import sys
 from collections.abc import Callable
 from typing import cast
 
@@ -12,7 +13,34 @@ from scene2hap.errors import Scene2HapError
 KEY = slice(8, 16)
 """Position of the session's key in a frame."""
 
+_SIO_UDP_CONNRESET = 0x9800000C
+"""Windows, <mswsock.h>: whether a closed port of a receiver fails the sender's next read."""
+
 Address = tuple[str, int]
+
+
+def ignore_closed_ports(descriptor: int) -> None:
+    """Let a UDP socket read on after an answer to a client that has gone. Does nothing but on Windows.
+
+    Windows fails the next read there, and asyncio then reads no frame of any client (github.com/python/cpython, issue
+    127057).
+    """
+    if sys.platform != "win32":
+        return
+    import ctypes
+
+    fails, n_returned = ctypes.c_int(0), ctypes.c_ulong()
+    ctypes.windll.ws2_32.WSAIoctl(
+        ctypes.c_size_t(descriptor),
+        ctypes.c_ulong(_SIO_UDP_CONNRESET),
+        ctypes.byref(fails),
+        ctypes.sizeof(fails),
+        None,
+        0,
+        ctypes.byref(n_returned),
+        None,
+        None,
+    )
 
 
 class FrameDatagrams(asyncio.DatagramProtocol):

@@ -30,6 +30,7 @@ from scene2hap.bundle.folder_swap import exchange
 from scene2hap.bundle.foreign_files import carry_over, discard
 from scene2hap.bundle.manifest import MANIFEST, our_files
 from scene2hap.common.file_stamp import Stamp, file_stamp
+from scene2hap.common.renaming import rename
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import BundleChanged, BundleError, BundleIncomplete, reason_of, unwritable
 
@@ -50,7 +51,9 @@ def require_replaceable(target: Path) -> None:
     would move away.
     """
     place = _resolved(target)
-    above = next(folder for folder in place.parents if os.path.exists(folder))
+    above = next((folder for folder in place.parents if os.path.exists(folder)), None)
+    if above is None:  # on Windows
+        raise BundleError(f"{target} cannot be written: there is no drive or share {place.anchor}. Name another.")
     if not above.is_dir() or not os.access(above, os.W_OK | os.X_OK):
         raise BundleError(f"{target} cannot be written: {above} is no folder of yours. Choose another place.")
     try:
@@ -131,7 +134,7 @@ def recover(target: Path) -> None:
             if not (new / MANIFEST).is_file() or _lock(new, held) is False or os.path.lexists(place):
                 continue  # another process works on it
             try:
-                new.rename(place)
+                rename(new, place)
             except OSError as cause:
                 raise BundleError(
                     f"{target} was being replaced when that process died. The new bundle is whole at {new}, the old "
@@ -156,7 +159,7 @@ def _put(
     while True:
         if not os.path.lexists(place):
             try:
-                draft.rename(place)
+                rename(draft, place)
             except OSError:
                 if not os.path.lexists(place):
                     raise
@@ -176,7 +179,8 @@ def _put(
                 (retire or discard)(old, place)
             except (OSError, BundleError) as cause:
                 warning = (
-                    f"{target} is written, but {old}, which it replaces, cannot be moved or removed: {reason_of(cause)}"
+                    f"{target} is written, but {old}, which it replaces, cannot be moved or removed: "
+                    f"{reason_of(cause).removesuffix('.')}. Remove it when no program has a file of it open."
                 )
                 warn_of(warning, BundleWarning)
         return
@@ -185,11 +189,11 @@ def _put(
 def _move_in(draft: Path, place: Path) -> Path:
     """Move the draft to the target in two steps. Returns the new path of the old folder."""
     old = draft.with_suffix(".old")
-    place.rename(old)
+    rename(place, old)
     try:
-        draft.rename(place)
+        rename(draft, place)
     except BaseException:
-        old.rename(place)
+        rename(old, place)
         raise
     return old
 
@@ -200,7 +204,7 @@ def _new_draft(place: Path, held: ExitStack) -> Path:
         made.mkdir(mode=0o700)
         draft = made.with_name(f"{made.name}-{made.stat().st_ino}.new")
         try:
-            made.rename(draft)
+            rename(made, draft)
         except FileNotFoundError:
             continue  # another save removed the empty folder before it was locked
         except OSError:

@@ -17,6 +17,7 @@ from itertools import count
 from pathlib import Path
 
 from scene2hap.bundle.manifest import MANIFEST, our_files
+from scene2hap.common.renaming import rename
 
 
 def carry_over(old: Path, new: Path) -> None:
@@ -50,9 +51,9 @@ def _empty(source: Path, target: Path, prefix: str, ours: frozenset[str]) -> Non
         elif name not in ours:
             _hand_on(entry, target / entry.name)
         elif name != MANIFEST:
-            entry.unlink()
+            _remove(entry)
     if not prefix:
-        (source / MANIFEST).unlink()
+        _remove(source / MANIFEST)
     source.rmdir()
 
 
@@ -83,11 +84,25 @@ def _link(entry: Path, target: Path) -> None:
 def _hand_on(entry: Path, target: Path) -> None:
     for place in _names(target):
         if not os.path.lexists(place):
-            entry.rename(place)
+            rename(entry, place)
             return
         if _are_equal(entry, place):
-            entry.unlink()
+            mode = place.lstat().st_mode
+            _remove(entry)
+            if place.lstat().st_mode != mode:  # it is the same file by another name
+                place.chmod(stat.S_IMODE(mode))
             return
+
+
+def _remove(entry: Path) -> None:
+    """Remove a file, also a write-protected one, which Windows would keep. Version control writes such files."""
+    try:
+        entry.unlink()
+    except PermissionError:
+        if entry.lstat().st_mode & stat.S_IWRITE:
+            raise
+        entry.chmod(stat.S_IWRITE | stat.S_IREAD)
+        entry.unlink()
 
 
 def _are_equal(one: Path, other: Path) -> bool:

@@ -14,6 +14,7 @@ from typing import Literal
 from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.foreign_files import discard
 from scene2hap.bundle.manifest import MANIFEST
+from scene2hap.common.renaming import rename
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import BundleError, reason_of
 
@@ -48,8 +49,8 @@ def push(old: Path, nearest: Path) -> None:
         discard(places[-1], nearest)
         free = MOST_STEPS - 1
     for number in range(free, 1, -1):
-        places[number - 1].rename(places[number])
-    old.rename(places[1])
+        rename(places[number - 1], places[number])
+    rename(old, places[1])
     shutil.copymode(nearest, places[1])
 
 
@@ -62,7 +63,7 @@ def pop(bundle: Path, kind: Kind) -> None:
     discard(steps[0], steps[1] if len(steps) > 1 else bundle.resolve())
     for place, step in zip(_places(step_beside(bundle, kind)), steps[1:], strict=False):
         if step != place:
-            step.rename(place)
+            rename(step, place)
 
 
 @contextmanager

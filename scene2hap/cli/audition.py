@@ -64,7 +64,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         else:
             _play(session, touch, output, seconds)
     if not output.has_played:
-        raise DeviceError(f"nothing was played: {output.problem or 'the actuator did not start.'}")
+        reason = (output.problem or "the actuator did not start.").removesuffix(" Trying again.")
+        raise DeviceError(f"nothing was played: {reason} Connect the actuator, or write a file with -o.")
     if output.problem:
         console.warn(output.problem)
     if arguments.output:

@@ -81,7 +81,7 @@ async def _serve(server: Any, console: Console) -> None:
 def _check(command: str, console: Console) -> dict[str, Any]:
     from scene2hap.testing.bridge_client import check_bridge_client
 
-    words = shlex.split(command, posix=os.name != "nt")
+    words = words_of(command, is_posix=os.name != "nt")
     if not words:
         raise ConfigError("--check has no command; give the one that starts your client.")
     if Path(words[0]).suffix == ".py":
@@ -89,3 +89,18 @@ def _check(command: str, console: Console) -> dict[str, Any]:
     found = check_bridge_client(words)
     console.say(f"{found.n_frames} frames, {found.n_resumed} resumed; gains differ by at most {found.worst:.1e}")
     return {"frames": found.n_frames, "resumed": found.n_resumed, "worst": found.worst}
+
+
+def words_of(command: str, *, is_posix: bool) -> list[str]:
+    """Split a command into words, without their quotes. On Windows a backslash is a part of a path.
+
+    Raises: ConfigError: a quote has no end.
+    """
+    words = shlex.shlex(command, posix=True, punctuation_chars=False)
+    words.whitespace_split, words.commenters = True, ""
+    if not is_posix:
+        words.escape, words.quotes = "", '"'
+    try:
+        return list(words)
+    except ValueError as cause:
+        raise ConfigError(f"--check is {command!r}, which cannot be split into words: {cause}.") from cause

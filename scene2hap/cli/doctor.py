@@ -12,6 +12,7 @@ import math
 import platform
 import re
 import time
+from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import asdict
 from importlib import metadata
@@ -25,6 +26,7 @@ from scene2hap.cli.console import Console
 from scene2hap.cli.list import GROUPS
 from scene2hap.cli.shared_options import given_spec
 from scene2hap.common import checks
+from scene2hap.common.failures import failure_of
 from scene2hap.compiled import are_in_use
 from scene2hap.devices import SINKS, loopback_latency
 from scene2hap.devices.protocol import ActuatorSink, Block, SinkEvent, SinkFormat, has_clock
@@ -132,22 +134,42 @@ def installed() -> list[dict[str, str]]:
 
 def sound_cards() -> dict[str, Any]:
     """Return the sound cards, or the reason why they cannot be listed."""
-    from scene2hap.devices import portaudio
 
-    try:
+    def found() -> list[str]:
+        from scene2hap.devices import portaudio
+
         portaudio.require_sounddevice()
-        return {"found": [str(card) for card in portaudio.cards()], "problem": ""}
-    except (MissingExtra, DeviceError) as problem:
-        return {"found": [], "problem": str(problem)}
+        return [str(card) for card in portaudio.cards()]
+
+    return _listed(found)
 
 
 def serial_ports() -> dict[str, Any]:
     """Return the serial ports, or the reason why they cannot be listed."""
-    try:
+
+    def found() -> list[str]:
+        try:
+            import serial  # noqa: F401  # the error below is about the package, not about one of its modules
+        except ImportError as cause:
+            raise MissingExtra('pyserial is not installed: pip install "scene2hap[serial]"') from cause
         from serial.tools import list_ports
-    except ImportError:
-        return {"found": [], "problem": 'pyserial is not installed: pip install "scene2hap[serial]"'}
-    return {"found": [f"{port.device}: {port.description}" for port in list_ports.comports()], "problem": ""}
+
+        return [f"{port.device}: {port.description}" for port in list_ports.comports()]
+
+    return _listed(found)
+
+
+def _listed(found: Callable[[], list[str]]) -> dict[str, Any]:
+    """Return what a part of the machine has, or the reason why that cannot be listed: drivers raise errors of any type.
+
+    The other parts are shown all the same.
+    """
+    try:
+        return {"found": found(), "problem": ""}
+    except (MissingExtra, DeviceError) as problem:
+        return {"found": [], "problem": str(problem)}
+    except Exception as problem:
+        return {"found": [], "problem": f"cannot be listed: {failure_of(problem)}"}
 
 
 def sweep(spec: object, hands: tuple[str, ...], console: Console, *, listen_to: str | None = None) -> dict[str, Any]:

@@ -8,11 +8,10 @@ Keys: arrows move the hand, space lifts and lowers it, + and - change the level,
 from __future__ import annotations
 
 import argparse
-import contextlib
 import shutil
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from rich.live import Live
@@ -20,6 +19,7 @@ from rich.text import Text
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
+from scene2hap.cli.keys import DOWN, LEFT, RIGHT, UP, keys
 from scene2hap.cli.plan import Plan
 from scene2hap.cli.shared_options import given_spec, session_config
 from scene2hap.devices import SINKS
@@ -33,7 +33,7 @@ UPDATE_S = 0.02
 _STEP_DB = 3.0
 _METER = 30
 _LEAST = 8
-_MOVES = {"\x1b[A": (-1, 0), "\x1b[B": (1, 0), "\x1b[C": (0, 1), "\x1b[D": (0, -1)}
+_MOVES = {UP: (-1, 0), DOWN: (1, 0), RIGHT: (0, 1), LEFT: (0, -1)}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -74,7 +74,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             screen.update(player.view(frame, output.problem, watch.problem))
             time.sleep(UPDATE_S)
     if not output.has_played:
-        console.warn(f"nothing was played: {output.problem or 'the actuator did not start'}")
+        reason = (output.problem or "the actuator did not start.").removesuffix(" Trying again.")
+        console.warn(f"nothing was played: {reason} Connect the actuator, or give another --sink.")
     return {"bundle": arguments.bundle, "ended_on": player.on, "played": output.has_played}
 
 
@@ -171,31 +172,3 @@ class Player:
             gain = min(frame.gain(HAND, source_id), 1.0)
             lines.append(f"{source_id:<28.28} {'#' * round(_METER * gain):<{_METER}} {gain:5.3f}")
         return Text("\n".join(lines + self.plan.lines(self._sources, self._hand)), no_wrap=True)
-
-
-@contextlib.contextmanager
-def keys() -> Iterator[Callable[[], str]]:
-    """Read keys without waiting. Yields a function that returns the next key, "" if there is none."""
-    if sys.platform == "win32":
-        raise ConfigError("scene2hap play reads keys on POSIX terminals only; use `scene2hap render` here.")
-    import os
-    import select
-    import termios
-    import tty
-
-    terminal = sys.stdin.fileno()
-    before = termios.tcgetattr(terminal)
-    tty.setcbreak(terminal)
-
-    def pressed() -> str:
-        if not select.select([terminal], [], [], 0)[0]:
-            return ""
-        key = os.read(terminal, 1).decode("latin-1")
-        if key == "\x1b" and select.select([terminal], [], [], 0.01)[0]:
-            key += os.read(terminal, 2).decode("latin-1")
-        return key
-
-    try:
-        yield pressed
-    finally:
-        termios.tcsetattr(terminal, termios.TCSADRAIN, before)

@@ -6,11 +6,14 @@ import errno
 import os
 import re
 import stat
+import sys
 import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
+
+from scene2hap.common.renaming import replace
 
 MAX_BYTES = 1 << 24
 """Most bytes of one file; assumed: a hundred times the largest handwritten one, and parsed in seconds."""
@@ -57,7 +60,12 @@ def read_small(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) -> byte
 def opened_regular(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
     """Open a regular file for reading. Raises: OSError, ValueError: there is no such file, or it is no regular file."""
     # O_NONBLOCK: opening a pipe would block. The open file is checked, since its path may have been replaced meanwhile.
-    descriptor = os.open(Path(path), os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+    try:
+        descriptor = os.open(Path(path), os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+    except PermissionError:
+        if Path(path).is_dir():  # Windows opens no folder, and gives no reason
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path)) from None
+        raise
     with os.fdopen(descriptor, "rb") as file:
         if not stat.S_ISREG(os.fstat(descriptor).st_mode):
             raise ValueError("it is a folder, a pipe or a device; give a file")
@@ -85,9 +93,13 @@ def require_place(path: Path) -> None:
     Raises: OSError: a folder or a device is there, one above is no folder of yours, or a name is too long.
     """
     draft_path(path)
+    if sys.platform == "win32" and len(path.name) > _LONGEST_NAME:  # it calls such a name absent
+        raise OSError(errno.ENAMETOOLONG, os.strerror(errno.ENAMETOOLONG))
     if path.is_dir():
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
-    above = next(folder for folder in path.absolute().parents if folder.exists())
+    above = next((folder for folder in path.absolute().parents if folder.exists()), None)
+    if above is None:
+        raise FileNotFoundError(errno.ENOENT, f"there is no drive or share {path.absolute().anchor}")
     if not above.is_dir():
         raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR))
     if not os.access(above, os.W_OK | os.X_OK):
@@ -127,7 +139,7 @@ def put_in_place(draft: Path, path: Path) -> None:
     """Replace a file by its draft, whose content is on the disk before. Raises: OSError."""
     with draft.open("rb+") as file:
         os.fsync(file.fileno())
-    os.replace(draft, path)
+    replace(draft, path)
 
 
 def write_whole(path: Path, content: str | bytes) -> None:

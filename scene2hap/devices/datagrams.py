@@ -40,27 +40,43 @@ class Datagrams:
             raise DeviceNotFound(
                 f"{self._place} cannot be reached: {reason_of(cause)}. Check host and network."
             ) from cause
-        for _ in range(PROBES):
-            try:
+        try:
+            for _ in range(PROBES):
                 self.send(probe)
-            except DeviceLost as cause:
-                raise DeviceNotFound(str(cause)) from cause
-            end = time.monotonic() + _PROBE_S
-            while carry_on() and time.monotonic() < end:
-                time.sleep(0.005)
+                end = time.monotonic() + _PROBE_S
+                while carry_on() and time.monotonic() < end:
+                    time.sleep(0.005)
+                    self._require_listener()
+        except DeviceLost as cause:
+            raise DeviceNotFound(str(cause)) from cause
 
     def send(self, data: bytes) -> None:
         """Send a datagram. It counts as not sent if the system's queue is full. Raises: DeviceLost."""
         if self._socket is None:
             raise DeviceLost(f"{self._place} is not open.")
+        self._require_listener()
         try:
             self._socket.send(data)
         except ConnectionRefusedError as cause:
-            raise DeviceLost(f"nobody listens at {self._place}. Start the receiver there.") from cause
+            raise self._unheard() from cause
         except OSError as cause:
             if cause.errno not in _FULL:
                 raise DeviceLost(f"{self._place} cannot be reached: {reason_of(cause)}. Check the network.") from cause
             self.not_sent += 1
+
+    def _require_listener(self) -> None:
+        """Read the report of a closed port, if one has come: Windows gives it to a read alone. Raises: DeviceLost."""
+        if self._socket is None:
+            return
+        try:
+            self._socket.recv(1)
+        except (ConnectionRefusedError, ConnectionResetError) as cause:  # the latter is that of Windows
+            raise self._unheard() from cause
+        except OSError:  # nothing has come, or on Windows a longer datagram
+            return
+
+    def _unheard(self) -> DeviceLost:
+        return DeviceLost(f"nobody listens at {self._place}. Start the receiver there.")
 
     def close(self, *farewell: bytes) -> None:
         """Send the datagrams `farewell` and close. Never raises; may be called twice."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
+from pathlib import Path
 from typing import Any
 
 from scene2hap.export.fidelity import Fidelity
@@ -51,8 +52,8 @@ class ExportReport:
         return tuple(dict.fromkeys(name for row in self.rows for name in row.files))
 
     def to_data(self) -> dict[str, Any]:
-        """Return the report as plain data, for JSON."""
-        return {"folder": self.folder, "files": [asdict(row) for row in self.rows]}
+        """Return the report as plain data, for JSON. Its paths have slashes on each system."""
+        return {"folder": Path(self.folder).as_posix(), "files": [asdict(row) for row in self.rows]}
 
     def __str__(self) -> str:
         return "\n".join(map(str, self.rows))

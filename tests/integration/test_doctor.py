@@ -7,6 +7,7 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -64,6 +65,32 @@ def test_doctor_states_the_install_command_of_a_missing_package(monkeypatch: pyt
     monkeypatch.setattr(doctor.metadata, "version", absent)
     hints = {row["extra"]: row["hint"] for row in doctor.extras()}
     assert hints["soundcard"] == 'pip install "scene2hap[soundcard]"'
+
+
+def test_doctor_shows_the_rest_of_a_machine_whose_devices_cannot_be_listed(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """As on a Windows whose driver library lacks a function: pyserial then fails while it is imported."""
+
+    class Broken(ModuleType):
+        def __getattr__(self, name: str) -> object:
+            raise AttributeError("function 'CM_MapCrToWin32Err' not found")
+
+    def no_cards() -> list[object]:
+        raise OSError("PortAudio library not found")
+
+    pytest.importorskip("serial.tools")
+    monkeypatch.setitem(sys.modules, "serial.tools.list_ports", Broken("serial.tools.list_ports"))
+    monkeypatch.delattr("serial.tools.list_ports", raising=False)
+    monkeypatch.setattr("scene2hap.devices.portaudio.cards", no_cards)
+    monkeypatch.setattr("scene2hap.devices.portaudio.require_sounddevice", lambda: None)
+    assert main(["doctor"]) == 0
+    lines = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
+    below_cards, below_ports = (lines[lines.index(title) + 1] for title in ("Sound cards:", "Serial ports:"))
+    assert below_cards.startswith("cannot be listed: OSError('PortAudio library not found')")
+    assert below_ports.startswith("cannot be listed: AttributeError(")
+    assert "CM_MapCrToWin32Err" in below_ports
+    assert any(line.startswith("Kernels:") for line in lines)
 
 
 def test_doctor_names_a_group_of_plugins_that_does_not_exist(

@@ -9,6 +9,7 @@ from scene2hap import HapticBundle, bake
 from scene2hap.cli import main
 from scene2hap.demo import kitchen_path
 from scripted_backend import SCENE, Scripted
+from systems import needs_long_names
 
 
 @pytest.fixture
@@ -61,6 +62,7 @@ def test_bake_needs_a_folder(capsys: pytest.CaptureFixture[str]) -> None:
     assert "-o BUNDLE" in capsys.readouterr().err
 
 
+@needs_long_names
 def test_bundle_whose_name_leaves_no_room_for_an_account_is_baked(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -25,6 +25,7 @@ from scene2hap.devices.udp import UdpSink
 from scene2hap.errors import ConfigError
 from scenes import RATE, table_with_two_phones
 from serial_bench import eventually
+from systems import needs_signals
 
 PAGE = Path(__file__).parents[2] / "docs" / "udp.md"
 
@@ -142,7 +143,10 @@ def test_the_csharp_receiver_of_the_page_plays_a_restarted_program(tmp_path: Pat
     assert written[1] - written[0] >= 1800
 
 
-@pytest.mark.parametrize("end", ["", "raise RuntimeError", "os.kill(os.getpid(), signal.SIGINT)"])
+SIGNALLED = pytest.param("os.kill(os.getpid(), signal.SIGINT)", marks=needs_signals)
+
+
+@pytest.mark.parametrize("end", ["", "raise RuntimeError", SIGNALLED])
 def test_a_program_that_ends_without_stop_silences_the_receiver(listener: socket.socket, end: str) -> None:
     program = f"""
 import os, signal, sys, numpy as np

@@ -18,6 +18,9 @@ To look up a command and its arguments. `scene2hap COMMAND --help` shows the sam
 progress, no tables) and `--json` (the result as JSON). The exit status is 0; 1 for an error that you can act on; 2 for
 wrong usage. `--` ends the options: write it before a name that begins with "-".
 
+On Windows, `cmd` knows double quotes only: write `"levels/*.glb"`, and JSON as `"{\\"kind\\": \\"wav\\"}"`. PowerShell
+up to 5.1 takes the single quotes of this page, with `\\"` inside them.
+
 <!-- python tests/support/command_line_page.py writes this page from the parser -->
 """
 

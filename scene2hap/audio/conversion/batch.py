@@ -19,6 +19,7 @@ from scene2hap.audio.files import READABLE, SUFFIXES
 from scene2hap.audio.haptic_loop import LevelWarning
 from scene2hap.audio.tactile import DEFAULT_CONVERTER
 from scene2hap.common.counted import first_of
+from scene2hap.common.interpreter import most_workers
 from scene2hap.common.text_files import drafts_of
 from scene2hap.errors import AudioError, Scene2HapError, unwritable
 
@@ -82,7 +83,7 @@ def convert_files(
 def _outcomes(
     jobs: dict[int, _Job], workers: int | None, pictures: bool, settings: dict[str, Any]
 ) -> Iterator[tuple[int, Conversion | Failure]]:
-    n_workers = min(workers or os.cpu_count() or 1, len(jobs))
+    n_workers = most_workers(min(workers or os.cpu_count() or 1, len(jobs)))
     if n_workers <= 1:
         for index, job in jobs.items():
             yield index, _convert(job, pictures, settings)

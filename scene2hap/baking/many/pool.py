@@ -14,6 +14,7 @@ from types import TracebackType
 from typing import Any, Protocol, TypeVar
 
 from scene2hap.common import checks
+from scene2hap.common.interpreter import most_workers
 from scene2hap.errors import ConfigError, MissingExtra
 
 Result = TypeVar("Result")
@@ -181,7 +182,7 @@ async def _awaited(future: Future[Result]) -> Result:
 
 def _n_workers(text: str) -> int:
     if not text:
-        return os.cpu_count() or 1
+        return most_workers(os.cpu_count() or 1)
     if not text.isdecimal() or not 1 <= int(text) <= 256:
         raise ConfigError(f"executor asks for {text!r} processes; it must be a whole number from 1 to 256.")
-    return int(text)
+    return most_workers(int(text))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
+from pathlib import Path
 from typing import Any, Literal
 
 from scene2hap.common.calls import clear_attributes
@@ -84,7 +85,7 @@ class ManyReport:
             "calls_kept": self.kept,
             "cost_usd": self.cost_usd,
             "stack": {name: {key: str(value) for key, value in layer.items()} for name, layer in self.stack.items()},
-            "scenes": [asdict(one) for one in self.scenes],
+            "scenes": [asdict(one) | _portable(scene=one.scene, bundle=one.bundle) for one in self.scenes],
         }
 
     def __str__(self) -> str:
@@ -92,3 +93,8 @@ class ManyReport:
         baked, calls = counted(self.count("baked"), "scene"), counted(self.calls, "call")
         scenes = f"{baked} baked, {self.count('kept')} kept, {self.count('failed')} failed in {self.seconds:.0f} s"
         return f"{scenes}; {calls}, {self.kept} answered from the cache, {cost}"
+
+
+def _portable(**paths: str) -> dict[str, str]:
+    """Return paths with slashes, as a report that was written on Windows is read elsewhere."""
+    return {name: Path(path).as_posix() for name, path in paths.items()}

@@ -294,7 +294,7 @@ class Run:
         place = str(path.absolute())
         with suppress(ValueError):  # another drive, on Windows
             place = os.path.relpath(path, self.folder)  # a project that is copied as a whole finds its own scenes
-        write_record(self._record(path), {**made_of, "path": place, **facts})
+        write_record(self._record(path), {**made_of, "path": Path(place).as_posix(), **facts})
 
     def _written(self, path: Path) -> str:
         """Return the digest of the bundle that the last bake of a scene wrote, "-" if that is unknown."""

@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from itertools import chain, groupby
 from pathlib import Path
 
+from scene2hap.common.interpreter import most_workers
 from scene2hap.errors import ConfigError
 from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.lazy_pictures import CaptureStats, LazyPictures
@@ -46,7 +47,7 @@ def render_all(scene: SceneSnapshot, workers: int | None = None, *, progress: Pr
     wanted = pictures.missing(shot for images in sets if images.source is pictures for shot in images.shots)
     by_themselves = [images for images in sets if images.source is not pictures]
     is_alone = workers <= 1 or len(wanted) <= 1
-    taken = _alone(pictures, wanted) if is_alone else _shared(pictures, wanted, workers - 1)
+    taken = _alone(pictures, wanted) if is_alone else _shared(pictures, wanted, most_workers(workers - 1))
     total = len(wanted) + sum(map(len, by_themselves))
     # An object shown alone has a small scene of its own, so another process would not save time.
     for n_done, _ in enumerate(chain(taken, chain.from_iterable(by_themselves)), start=1):

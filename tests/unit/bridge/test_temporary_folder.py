@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from scene2hap.bridge.temporary_folder import TemporaryFolder
+from systems import needs_links
 
 # Makes a folder and dies without cleaning up, as a process that is killed.
 KILLED = """
@@ -66,6 +67,7 @@ def test_a_new_folder_stays_since_its_server_may_not_hold_it_yet() -> None:
     assert new.is_dir()
 
 
+@needs_links
 def test_other_folders_and_links_stay(temporary: Path) -> None:
     gone, elsewhere, other = left_behind(), temporary / "documents", temporary / "scene2hap-bridge-notes"
     gone.rename(elsewhere)

@@ -3,6 +3,7 @@
 import copy
 import json
 import pickle
+import re
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -157,7 +158,7 @@ def test_missing_file_is_reported(folder: Path, name: str) -> None:
 def test_truncated_file_is_reported(folder: Path, name: str) -> None:
     whole = (folder / name).read_bytes()
     (folder / name).write_bytes(whole[: len(whole) // 2])
-    with pytest.raises(BundleIncomplete, match=name):
+    with pytest.raises(BundleIncomplete, match=re.escape(str(Path(name)))):
         HapticBundle.load(folder)
 
 

@@ -18,6 +18,7 @@ from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
 from scene2hap.bundle.folder_swap import exchange
 from scene2hap.errors import BundleChanged, BundleError, BundleIncomplete, BundleVersionError
 from scenes import table_with_two_phones
+from systems import needs_links, needs_long_names, needs_modes
 
 
 def a_bundle() -> HapticBundle:
@@ -119,6 +120,14 @@ def test_invalid_folder_name_is_refused(tmp_path: Path, name: str, monkeypatch: 
     assert sorted(tmp_path.rglob("*")) == before
 
 
+def test_a_drive_that_does_not_exist_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """On Windows, a drive may be unplugged, and then not even the root of a path exists."""
+    monkeypatch.setattr(os.path, "exists", lambda path: False)
+    with pytest.raises(BundleError, match="there is no drive or share"):
+        require_replaceable(tmp_path / "room")
+
+
+@needs_long_names
 def test_long_folder_name_is_accepted(tmp_path: Path) -> None:
     for _ in range(2):
         a_bundle().save(tmp_path / ("x" * 250))
@@ -129,7 +138,7 @@ def test_long_folder_name_is_accepted(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("both_ways")
-@pytest.mark.skipif(sys.platform == "win32", reason="Windows calls a name that is too long absent")
+@needs_long_names
 def test_too_long_name_is_refused_before_a_bake(tmp_path: Path) -> None:
     with pytest.raises(BundleError, match=r"cannot be written: .* Give a shorter name\."):
         require_replaceable(tmp_path / ("b" * 256))
@@ -147,18 +156,27 @@ def test_foreign_files_are_kept_by_every_save(tmp_path: Path) -> None:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_bytes(said)
     (folder / "empty").mkdir()
-    (folder / "link").symlink_to("README.md")
-    (folder / "README.md").chmod(0o600)
     inode = (folder / "README.md").stat().st_ino
     for _ in range(3):
         a_bundle().override("phone", gain_db=1.0).save(folder)
         assert {name: (folder / name).read_bytes() for name in theirs} == theirs
     assert (folder / "empty").is_dir()
-    assert os.readlink(folder / "link") == "README.md"
     assert (folder / "README.md").stat().st_ino == inode
-    assert (folder / "README.md").stat().st_mode & 0o777 == 0o600
     assert [path.name for path in tmp_path.iterdir()] == ["room"]
     assert HapticBundle.load(folder).gain_db("phone") == 1.0
+
+
+@needs_links
+@needs_modes
+def test_links_and_modes_of_foreign_files_are_kept(tmp_path: Path) -> None:
+    folder = a_bundle().save(tmp_path / "room")
+    (folder / "README.md").write_bytes(b"read me")
+    (folder / "README.md").chmod(0o600)
+    (folder / "link").symlink_to("README.md")
+    for _ in range(3):
+        a_bundle().override("phone", gain_db=1.0).save(folder)
+    assert os.readlink(folder / "link") == "README.md"
+    assert (folder / "README.md").stat().st_mode & 0o777 == 0o600
 
 
 @pytest.mark.usefixtures("both_ways")
@@ -206,6 +224,7 @@ def test_file_saved_by_an_editor_during_a_save_is_kept(tmp_path: Path, monkeypat
     assert {(folder / name).read_text() for name in ("thesis.txt", "thesis-kept.txt")} == {"ten years", "eleven years"}
 
 
+@needs_links
 def test_a_link_to_a_folder_stays_a_link(tmp_path: Path) -> None:
     a_bundle().save(tmp_path / "elsewhere" / "room")
     (tmp_path / "link").symlink_to(tmp_path / "elsewhere" / "room")
@@ -215,6 +234,7 @@ def test_a_link_to_a_folder_stays_a_link(tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["elsewhere", "link"]
 
 
+@needs_modes
 def test_the_folder_s_mode_stays(tmp_path: Path) -> None:
     folder = a_bundle().save(tmp_path / "room")
     folder.chmod(0o750)
@@ -222,6 +242,7 @@ def test_the_folder_s_mode_stays(tmp_path: Path) -> None:
     assert folder.stat().st_mode & 0o777 == 0o750
 
 
+@needs_modes
 def test_a_write_protected_folder_is_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, both_ways: None) -> None:
     """Root may write anywhere, so the mode is read where the old folder is removed."""
     folder, modes = a_bundle().save(tmp_path / "room"), []
@@ -353,6 +374,56 @@ def test_failed_second_rename_restores_the_old_bundle(tmp_path: Path, monkeypatc
         a_bundle().override("phone", gain_db=1.0).save(folder)
     monkeypatch.undo()
     assert HapticBundle.load(folder).gain_db("phone") == 0.0
+    assert [path.name for path in tmp_path.iterdir()] == ["room"]
+
+
+def test_a_bundle_with_an_open_file_is_neither_replaced_nor_harmed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Windows does not move a folder with an open file, as one that an audio editor has open."""
+    folder = a_bundle().save(tmp_path / "room")
+    (folder / "thesis.txt").write_text("ten years")
+    before = files_of(folder)
+    monkeypatch.setattr(folder_replacement, "exchange", lambda one, other: False)
+    rename = Path.rename
+
+    def reject(self: Path, target: Path) -> Path:
+        if self == folder:
+            problem = PermissionError(13, "Access is denied")
+            problem.winerror = 5
+            raise problem
+        return rename(self, target)
+
+    monkeypatch.setattr(Path, "rename", reject)
+    with pytest.raises(BundleError, match=r"cannot be written: .* Close the program that has it .*open"):
+        a_bundle().override("phone", gain_db=1.0).save(folder)
+    monkeypatch.undo()
+    assert files_of(folder) == before
+    assert [path.name for path in tmp_path.iterdir()] == ["room"]
+    a_bundle().override("phone", gain_db=1.0).save(folder)
+    assert HapticBundle.load(folder).gain_db("phone") == 1.0
+
+
+def test_write_protected_files_of_a_bundle_are_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Perforce checks files out write-protected, and Windows then keeps them from being removed."""
+    folder = a_bundle().save(tmp_path / "room")
+    (folder / "thesis.txt").write_text("ten years")
+    for path in folder.rglob("*"):
+        if path.is_file():
+            path.chmod(0o444)
+    unlink = Path.unlink
+
+    def as_on_windows(self: Path, missing_ok: bool = False) -> None:
+        if self.exists() and not self.stat().st_mode & 0o200:
+            raise PermissionError(13, "Access is denied")
+        unlink(self, missing_ok)
+
+    monkeypatch.setattr(Path, "unlink", as_on_windows)
+    monkeypatch.setattr(folder_replacement, "exchange", lambda one, other: False)
+    a_bundle().override("phone", gain_db=1.0).save(folder)
+    assert HapticBundle.load(folder).gain_db("phone") == 1.0
+    assert (folder / "thesis.txt").read_text() == "ten years"
+    assert not (folder / "thesis.txt").stat().st_mode & 0o200
     assert [path.name for path in tmp_path.iterdir()] == ["room"]
 
 

@@ -1,7 +1,6 @@
 """Reading small user files, limited in size and without waiting for pipes; writing files whole or not at all."""
 
 import os
-import sys
 import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
@@ -16,9 +15,10 @@ from scene2hap.audio.sources.library import FolderLibrary
 from scene2hap.bridge.config import BridgeConfig
 from scene2hap.bundle.folder_replacement import require_replaceable
 from scene2hap.clips.ahap import read_ahap
-from scene2hap.common.text_files import draft_of, drafts_of, read_small, read_small_text, write_whole
+from scene2hap.common.text_files import draft_of, drafts_of, read_small, read_small_text, require_place, write_whole
 from scene2hap.errors import AudioError, ConfigError, Scene2HapError
 from scene2hap.llm.prompts import Prompts
+from systems import needs_long_names
 
 
 def test_the_memory_of_a_read_is_that_of_the_file_and_not_of_the_limit(tmp_path: Path) -> None:
@@ -135,7 +135,7 @@ def test_a_device_or_a_pipe_is_not_replaced_by_a_file(tmp_path: Path) -> None:
 TOO_LONG = "x" * 5000
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="Windows calls a name that is too long absent")
+@needs_long_names
 @pytest.mark.parametrize(
     ("use", "error"),
     [
@@ -156,7 +156,7 @@ def test_a_name_that_no_file_can_have_is_an_error_of_ours(use: Callable[[str], o
         use(TOO_LONG)
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="Windows calls a name that is too long absent")
+@needs_long_names
 def test_a_sound_is_not_converted_to_a_name_that_no_file_can_have(tmp_path: Path) -> None:
     sound = tmp_path / "a.wav"
     soundfile.write(sound, np.full(800, 0.1), 8000)
@@ -165,3 +165,23 @@ def test_a_sound_is_not_converted_to_a_name_that_no_file_can_have(tmp_path: Path
     (failure,) = convert_files([sound], tmp_path / TOO_LONG)
     assert isinstance(failure, Failure)
     assert "too long" in failure.reason
+
+
+def test_a_drive_that_does_not_exist_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Path, "exists", lambda path: False)
+    with pytest.raises(FileNotFoundError, match="there is no drive or share"):
+        require_place(tmp_path / "sub" / "a.wav")
+
+
+def test_a_folder_is_called_one_where_it_cannot_be_opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Windows says "Permission denied" of a folder that is opened as a file."""
+
+    def deny(path: Path, flags: int) -> int:
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr(os, "open", deny)
+    with pytest.raises(IsADirectoryError):
+        read_small(tmp_path)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(PermissionError):
+        read_small(tmp_path / "file")

@@ -57,7 +57,7 @@ def test_csv_of_a_spreadsheet_in_a_country_of_decimal_commas(tmp_path: Path) -> 
     for text in (german, german.replace(";", "\t")):
         (tmp_path / "touches.csv").write_text(text, "utf-8-sig", newline="\r\n")
         assert TouchTrack.load(tmp_path / "touches.csv") == TouchTrack.load(tmp_path / "touches.json")
-    (tmp_path / "touches.csv").write_text("time_s,hand,touch\n0.5,left,Küche\n1.0,,\n", "cp1252")
+    (tmp_path / "touches.csv").write_text("time_s,hand,touch\n0.5,left,Küche\n1.0,,\n", "cp1252", newline="\n")
     with pytest.raises(SessionError, match="byte 28 is 0xfc, which is not UTF-8; save the text as UTF-8"):
         TouchTrack.load(tmp_path / "touches.csv")
 

@@ -16,6 +16,7 @@ from scene2hap.scene.engines import mjcf_files
 from scene2hap.scene.engines.mjcf_files import check_files
 from scene2hap.scene.engines.mujoco import load_mjcf, open_mjcf, snapshot
 from scene2hap.scene.formats import xml_files
+from systems import needs_links, needs_long_names
 
 pytest.importorskip("mujoco", reason="needs the extra mujoco")
 
@@ -114,6 +115,7 @@ def test_the_root_of_a_disk_is_never_advised(home: Path) -> None:
         load_mjcf(mjcf(home, f'<asset><mesh name="t" file="{absolute}"/></asset>{WORLD}'))
 
 
+@needs_links
 def test_symbolic_link_out_of_the_root_is_refused(home: Path) -> None:
     os.symlink(home.parent / "other", home / "linked")
     with pytest.raises(SceneError, match="lies outside"):
@@ -150,6 +152,10 @@ def test_a_missing_file_is_named(home: Path) -> None:
         load_mjcf(mjcf(home, f'<asset><mesh name="t" file="u.obj"/></asset>{WORLD}'))
     with pytest.raises(SceneError, match="there is no file"):
         load_mjcf(home / "none.xml")
+
+
+@needs_long_names
+def test_a_name_that_is_too_long_is_no_usable_one(home: Path) -> None:
     with pytest.raises(SceneError, match="is no usable file name"):
         load_mjcf(mjcf(home, f'<asset><mesh name="t" file="{"x" * 5000}"/></asset>{WORLD}'))
 

@@ -23,6 +23,7 @@ from scene2hap.scene.formats.habitat import referenced_files
 from scene2hap.scene.load import TextureWarning, UnitWarning, load_scene
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
+from systems import needs_links
 
 QUARTER = [0.5**0.5, 0.0, 0.5**0.5, 0.0]
 """A quarter turn about Y, as a quaternion with w first."""
@@ -649,6 +650,7 @@ def test_broken_model_error_names_its_row(dataset: Dataset) -> None:
         loaded(dataset.scene(instance()))
 
 
+@needs_links
 def test_symbolic_links_out_of_the_root_are_refused(dataset: Dataset, tmp_path: Path) -> None:
     secret = one_cube().write(tmp_path / "secret.glb")
     model = dataset.folder / f"objects/f/{CHAIR}.glb"
@@ -698,6 +700,7 @@ def test_totals_over_all_instances_are_limited(dataset: Dataset, monkeypatch: py
     loaded(path)
 
 
+@needs_links
 def test_repeated_pattern_matches_are_bounded(dataset: Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(limits, "MAX_DATASET_FILES", 20_000)
     for name in "abc":
