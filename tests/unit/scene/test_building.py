@@ -18,7 +18,7 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import SceneError
 from scene2hap.llm.chain.sharing import copies
 from scene2hap.scene.geometry import distances
-from scene2hap.scene.hinges import chains
+from scene2hap.scene.hinges import kinematic_chains
 from scene2hap.scene.plausibility.units import UnitWarning
 
 ROOM = [
@@ -99,7 +99,7 @@ def test_equal_links_of_different_robots_are_no_copies() -> None:
     ]
     snapshot = SceneSnapshot.build(things)
     assert len({item.instance_key for item in snapshot.objects}) == 1
-    assert copies(snapshot, ContactGraph(snapshot), chains(snapshot.objects))["link 2"] == "link 2"
+    assert copies(snapshot, ContactGraph(snapshot), kinematic_chains(snapshot.objects))["link 2"] == "link 2"
 
 
 def test_surface_faces_up_with_z_up() -> None:

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from scene2hap import ContactGraph, Hinge, SceneSnapshot
 from scene2hap.llm.chain.sharing import copies
-from scene2hap.scene.hinges import Chain, chains, series
+from scene2hap.scene.hinges import KinematicChain, kinematic_chains, series
 from scripted_backend import box
 
 
@@ -16,8 +16,8 @@ def test_a_chain_has_all_objects_that_hinges_join_and_its_longest_series() -> No
         replace(box(x, (0.1, 0.1, 0.1), (0.0, 0.0, 0.0)), hinge=Hinge(on[x], (0, 0, 0), (0, 0, 0)) if x in on else None)
         for x in ids
     ]
-    robot, cabinet = Chain(("hand", "base", "arm", "head"), 3), Chain(("cabinet", "door"), 2)
-    assert chains(items) == {**dict.fromkeys(robot.ids, robot), **dict.fromkeys(cabinet.ids, cabinet)}
+    robot, cabinet = KinematicChain(("hand", "base", "arm", "head"), 3), KinematicChain(("cabinet", "door"), 2)
+    assert kinematic_chains(items) == {**dict.fromkeys(robot.ids, robot), **dict.fromkeys(cabinet.ids, cabinet)}
 
 
 def test_objects_that_hang_on_each_other_have_the_least_id_of_their_ring() -> None:
@@ -44,6 +44,6 @@ def test_the_kinds_of_a_chain_are_read_once_for_all_of_its_objects() -> None:
 
     rope = SceneSnapshot.build([box(f"link {k}", (0.1, 0.1, 0.1), (0.2 * k, 0.0, 0.0)) for k in range(9)])
     ids = Ids(item.id for item in rope.objects)
-    shared = copies(rope, ContactGraph(rope), dict.fromkeys(ids, Chain(ids, 9)))
+    shared = copies(rope, ContactGraph(rope), dict.fromkeys(ids, KinematicChain(ids, 9)))
     assert set(shared.values()) == {"link 0"}
     assert ids.n_read <= 3
