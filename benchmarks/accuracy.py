@@ -262,8 +262,8 @@ def page(rows: list[Row]) -> str:
         fill(
             "`ExponentialPlate`, the paper's law, is a style, legible rather than physical: its column says how far "
             "legible is from real, not how good it is. `InfinitePlate` has the right level on average and none of the "
-            "resonances. `MassSpringDamper` is the same plate as a lattice, whose waves run a few per cent slow; `-` "
-            "where they are too short for it. `ModalPlate` is the plate. `AutoFidelity` keeps its tolerance for gains "
+            "resonances. `MassSpringDamper` is the same plate as a lattice of splines; `-` where waves "
+            "are too short for it. `ModalPlate` is the plate. `AutoFidelity` keeps its tolerance for gains "
             "of bands, not for the single frequencies of this page. All of them and the truth leave out shear: "
             "where six thicknesses make a wavelength, a thin plate's frequencies are 15 % too high.",
             WIDTH,
