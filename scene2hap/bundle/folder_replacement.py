@@ -264,6 +264,7 @@ def _lock(folder: Path, held: ExitStack, *, wait: bool = False) -> bool | None:
             held.callback(os.close, descriptor)
             fcntl.flock(descriptor, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
             return os.path.samestat(os.fstat(descriptor), os.stat(folder))
+        # Windows has no lock for folders.
         return None if os.path.lexists(folder) else False
     except (BlockingIOError, FileNotFoundError, NotADirectoryError):
         return False

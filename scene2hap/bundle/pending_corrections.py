@@ -6,7 +6,7 @@ from scene2hap.bundle.contents import BundleContents
 
 
 def reason_of_name(name: str) -> str:
-    """The reason that an object has from the bake in which it was inferred by a person's name."""
+    """Return the reason that a bake gives an object whose name a person has corrected."""
     return f"a person calls it {name!r}."
 
 

@@ -10,7 +10,7 @@ UP, DOWN, RIGHT, LEFT = "\x1b[A", "\x1b[B", "\x1b[C", "\x1b[D"
 """The arrow keys, as POSIX terminals send them."""
 
 _ARROWS_OF_WINDOWS = {"H": UP, "P": DOWN, "M": RIGHT, "K": LEFT}
-"""Second character of the arrow keys on Windows (documented for `msvcrt.getwch`); the first one is one of these:"""
+"""Second character of the arrow keys on Windows, after one of `_PREFIXES` (documented for `msvcrt.getwch`)."""
 _PREFIXES = ("\x00", "\xe0")
 
 
