@@ -8,21 +8,27 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NoReturn
 
+import numpy as np
+
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.devices.protocol import ActuatorSink
 from scene2hap.errors import BundleError, ConfigError, SceneError, SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.session.frame import Touch, unknown_hand
+from scene2hap.session.frame import Touch, require_hand, unknown_hand
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.impacts.felt_impacts import KNOCK_M_S, Strike
 from scene2hap.session.scene_state import SceneState
 
 MAX_RENDERED_FRAMES = 1 << 24
 """Most frames of one call; assumed: minutes, while a sink takes milliseconds at a time."""
+
+MAX_POINTS = 1024
+"""Most tracked points of a hand; assumed: 26 joints, or a few hundred points of a glove."""
 
 MAX_AHEAD_S = 3600
 """Longest time of `at_sample` ahead of the rendered samples [s]; assumed: a longer one is in other units."""
@@ -92,6 +98,29 @@ def _given_touch(touch: object) -> Touch:
 def _refuse_touches(verb: str, given: object) -> NoReturn:
     wrong = f"{checks.represented(given)} ({type(given).__name__})"
     raise SessionError(f"touches {verb} {wrong}; it must be a list of Touch, as [{_TOUCH}].")
+
+
+def given_points(points_m: object, hands: Sequence[str]) -> dict[str, Floats]:
+    """Return the tracked points (n, 3) [m] of each hand. A hand may have one point, or None while it is not tracked.
+
+    Raises: SessionError: an unknown hand; points of another shape, not finite, or more than `MAX_POINTS`.
+    """
+    if not isinstance(points_m, Mapping):
+        how = "it must be a mapping of hands to points, as {'left': (0.1, 0.8, 0.2)}"
+        raise SessionError(f"points_m is {checks.described(points_m)}; {how}.")
+    found = {}
+    for hand, given in points_m.items():
+        require_hand(hand, hands)
+        if given is None:
+            continue
+        name = f"points_m[{hand!r}]"
+        points = np.atleast_2d(checks.floats(name, given, "m", error=SessionError))
+        if points.ndim != 2 or points.shape[1] != 3 or len(points) > MAX_POINTS:
+            raise SessionError(f"{name} has shape {np.shape(given)}; it must be (3,) or (n, 3) [m], n <= {MAX_POINTS}.")
+        if not np.isfinite(points).all():
+            raise SessionError(f"{name} has a number that is not finite; leave out the points that are not tracked.")
+        found[hand] = points
+    return found
 
 
 def touches_by_hand(touches: Any, hands: Sequence[str], state: SceneState) -> Felt:

@@ -16,7 +16,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any, NoReturn, Self, overload
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
@@ -39,6 +39,7 @@ from scene2hap.session.arguments import (
     given_contacts,
     given_frame,
     given_frames,
+    given_points,
     given_stamp,
     given_strike,
     given_touches,
@@ -68,6 +69,7 @@ from scene2hap.session.mix.playback import Playback
 from scene2hap.session.mix.sources import Level, LoopRow, SourceInfo, SourceProgress, Sources
 from scene2hap.session.mix.starts_and_stops import Switching
 from scene2hap.session.prepared_shapes import PreparedShapes
+from scene2hap.session.proximity import Proximity
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.user_profile import UserProfile
 
@@ -136,6 +138,7 @@ class HapticSession:
         self._switching = Switching(self._sources, self._playback, self._state, self.config.sample_rate_hz)
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
         self._mistakes = LikelyMistakes(self._state)
+        self._proximity = Proximity()
         # No reference to the session itself: only the garbage collector could free such a cycle.
         frames, level = self._hand_frames, self._sources.user
         self._impacts = Impacts(self.config, self._state, self._playback, lambda: frames.field, lambda: level.factor)
@@ -230,6 +233,33 @@ class HapticSession:
             if self._output.is_unused and not self._playback.position:
                 self._mistakes.in_output()
         return frame
+
+    def touches_at(
+        self,
+        points_m: Mapping[str, ArrayLike | None],
+        moved: Mapping[str, Pose] | None = None,
+        *,
+        within_m: float = 0.01,
+        depth_m: float = 0.03,
+    ) -> list[Touch]:
+        """Return the touches of tracked points, such as finger tips, for a game without collisions of its own.
+
+        A point touches each object whose surface is at most `within_m` in front of it [m], or at most `depth_m` [m] if
+        the point is inside, behind the nearest face. The touch is at the nearest point of the surface.
+        Parameters: points_m : for each hand its points (n, 3) or one point (3,) in the world [m], None while the hand
+        is not tracked; moved : poses that the next update will get, by id.
+        Raises: SessionError: an unknown hand, points that are not finite or of another shape, a distance below 0 or
+        above 1 m; SceneError: another type than a pose.
+        """
+        points = given_points(points_m, self._hands)
+        within_m = checks.number("within_m", within_m, "m", at_least=0.0, at_most=1.0, error=SessionError)
+        depth_m = checks.number("depth_m", depth_m, "m", at_least=0.0, at_most=1.0, error=SessionError)
+        poses = self._state.poses
+        if moved:
+            for object_id, pose in moved.items():
+                require_pose(object_id, pose)
+            poses = {**poses, **moved}
+        return self._proximity.touches(points, self._state.objects, poses, within_m, depth_m)
 
     def strike(
         self,

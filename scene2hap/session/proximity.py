@@ -1,0 +1,120 @@
+"""Touches of tracked points, such as finger tips, for a game that has no collisions of its own.
+
+A point touches every object whose surface is near it. Tracked hands pass through virtual objects, so a point behind a
+face, inside the object, may be farther from it than a point in front.
+
+The box around an object leaves few objects to search for each point, and the tree over its triangles few triangles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from scene2hap.common.arrays import Floats
+from scene2hap.contact.geometry.boxes import Boxes
+from scene2hap.contact.geometry.nearest import nearest_points
+from scene2hap.contact.geometry.triangle_tree import ALL, meeting
+from scene2hap.contact.geometry.vectors import Indices
+from scene2hap.contact.shape import Shape, shape_of
+from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.pose import Pose
+from scene2hap.session.frame import Touch
+
+_EQUAL = 1e-9
+"""Distances that differ by less than this share are those of faces with a common nearest edge or corner."""
+
+
+class _Near(NamedTuple):
+    """A point of a hand, in the frame of an object near it [m], and the columns of the triangles near the point."""
+
+    hand: str
+    object_id: str
+    own_point: Floats
+    shape: Shape
+    columns: Indices
+
+
+class Proximity:
+    """Finds the objects near points. Keeps the shapes, boxes and poses of all objects between calls."""
+
+    def __init__(self) -> None:
+        self._objects: Mapping[str, SceneObject] = {}
+        self._ids: tuple[str, ...] = ()
+        self._shapes: list[Shape] = []
+        self._poses: list[Pose | None] = []
+        self._boxes, self._rotations, self._positions = np.empty((2, 0, 3)), np.empty((0, 3, 3)), np.empty((0, 3))
+
+    def touches(
+        self,
+        points_m: Mapping[str, Floats],
+        objects: Mapping[str, SceneObject],
+        poses: Mapping[str, Pose],
+        within_m: float,
+        depth_m: float,
+    ) -> list[Touch]:
+        """Return the touches of the points (n, 3) [m] of each hand with objects at these poses.
+
+        A point touches a surface that is up to `within_m` away, or up to `depth_m` if it lies behind the face there.
+        """
+        self._follow(objects, poses)
+        reach_m = max(within_m, depth_m)
+        near = [
+            one for hand, points in points_m.items() for point in points for one in self._near(hand, point, reach_m)
+        ]
+        if not near:
+            return []
+        counts = np.array([len(one.columns) for one in near])
+        triangles = np.concatenate([one.shape.triangles.take(one.columns, axis=2) for one in near], axis=2)
+        points, distances, heights = nearest_points(
+            np.repeat(np.array([one.own_point for one in near]).T, counts, axis=1), triangles
+        )
+        found = []
+        for one, first, n in zip(near, (np.cumsum(counts) - counts).tolist(), counts.tolist(), strict=True):
+            of_one = distances[first : first + n]
+            least = float(of_one.min())
+            # Of the faces at an edge or a corner, the one that looks most towards the point or away from it decides.
+            equal = first + np.flatnonzero(of_one <= least * (1.0 + _EQUAL))
+            k = equal[np.abs(heights[equal]).argmax()]
+            if least <= (depth_m if heights[k] < 0.0 else within_m):
+                found.append(
+                    Touch(one.hand, one.object_id, poses[one.object_id].to_world(points[:, k][None])[0].tolist())
+                )
+        return found
+
+    def _near(self, hand: str, point: Floats, reach_m: float) -> list[_Near]:
+        """Return the objects with triangles whose boxes are within `reach_m` of a point in the world [m]."""
+        own_points = np.einsum("nij,ni->nj", self._rotations, point - self._positions)
+        low, high = self._boxes
+        is_near = ((own_points >= low - reach_m) & (own_points <= high + reach_m)).all(axis=1)
+        found = []
+        for k in np.flatnonzero(is_near).tolist():
+            columns = _columns_near(self._shapes[k], own_points[k], reach_m)
+            if columns.size:
+                found.append(_Near(hand, self._ids[k], own_points[k], self._shapes[k], columns))
+        return found
+
+    def _follow(self, objects: Mapping[str, SceneObject], poses: Mapping[str, Pose]) -> None:
+        """Take over the objects that were added or removed since the last call, and the poses that changed."""
+        if objects is not self._objects:
+            self._objects, self._ids, n = objects, tuple(objects), len(objects)
+            self._shapes = [shape_of(item.geometry.mesh) for item in objects.values()]
+            self._boxes = np.array([item.geometry.mesh.bounds_m for item in objects.values()]).reshape(n, 2, 3)
+            self._boxes = np.ascontiguousarray(self._boxes.transpose(1, 0, 2))
+            self._poses, self._rotations, self._positions = [None] * n, np.empty((n, 3, 3)), np.empty((n, 3))
+        for k, object_id in enumerate(self._ids):
+            pose = poses[object_id]
+            if pose is not self._poses[k]:
+                self._poses[k], self._rotations[k], self._positions[k] = pose, pose.rotation, pose.position_m
+
+
+def _columns_near(shape: Shape, own_point: Floats, reach_m: float) -> Indices:
+    """Return the columns of the triangles whose boxes are within `reach_m` of a point in the shape's frame [m]."""
+    if not shape.is_prepared:
+        # To build the tree would delay this frame, by 0.4 s for 100,000 triangles.
+        return shape.boxes.meeting(Boxes(own_point[:, None] - reach_m, own_point[:, None] + reach_m))
+    x, y, z = own_point.tolist()
+    low, high = (x - reach_m, y - reach_m, z - reach_m), (x + reach_m, y + reach_m, z + reach_m)
+    return meeting(shape.tree, low, high, ALL)
