@@ -35,6 +35,11 @@ def frozen(array: NDArray[Number]) -> NDArray[Number]:
     return array
 
 
+def difference(one: Vector, other: Vector) -> Vector:
+    """Return one vector less another."""
+    return one[0] - other[0], one[1] - other[1], one[2] - other[2]
+
+
 def dot(one: Sequence[float], other: Sequence[float]) -> float:
     """Return the dot product of two vectors."""
     return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]

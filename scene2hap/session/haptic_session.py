@@ -138,7 +138,6 @@ class HapticSession:
         self._switching = Switching(self._sources, self._playback, self._state, self.config.sample_rate_hz)
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
         self._mistakes = LikelyMistakes(self._state)
-        self._proximity = Proximity()
         # No reference to the session itself: only the garbage collector could free such a cycle.
         frames, level = self._hand_frames, self._sources.user
         self._impacts = Impacts(self.config, self._state, self._playback, lambda: frames.field, lambda: level.factor)
@@ -645,6 +644,10 @@ class HapticSession:
     def safety_stats(self) -> SafetyStats:
         """Counters of the changes by the safety layer of a started session."""
         return self._output.safety_stats
+
+    @cached_property
+    def _proximity(self) -> Proximity:
+        return Proximity()
 
     @cached_property
     def _whole(self) -> WholeFrames:

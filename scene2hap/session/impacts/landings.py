@@ -14,10 +14,8 @@ Doors and drawers meet their cabinet where no contact shows it (`slams`).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from functools import partial
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import pairwise
-from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -25,8 +23,9 @@ import numpy as np
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
 from scene2hap.contact.rule import TOUCH_M
-from scene2hap.scene.geometry import Vector, cross, dot
+from scene2hap.scene.geometry import Vector, difference, dot
 from scene2hap.scene.pose import Pose
+from scene2hap.session.impacts.approaches import NO_JUNCTIONS, Approach, Approaches
 from scene2hap.session.impacts.motion_track import (
     LEAST_TRAVEL_M,
     LEFT,
@@ -34,8 +33,8 @@ from scene2hap.session.impacts.motion_track import (
     MOST_STEPS,
     STILL,
     MotionTrack,
-    in_world,
 )
+from scene2hap.session.impacts.relative_motion import RelativeMotion
 from scene2hap.session.impacts.slams import RelativePoses, Slam
 
 LEAST_SPEED_M_S = 0.1
@@ -62,9 +61,6 @@ clock are one step too, unless it stands still."""
 _SUDDEN = ((1 - LEFT) * HEAD_ON) ** 2
 _LEAST_CHANGE = _SUDDEN * (LEAST_TRAVEL_M / MOST_STEPS) ** 2
 """Square of the smallest change of a step at a landing [m2]: the steps of a fall are not shorter."""
-_PLANE_POINTS, _LEAST_WIDTH_M, _FLAT = 3, 0.003, 0.1
-"""Fewest points of a contact that span a plane, their least width, and their largest thickness relative to it."""
-_NOTHING: Mapping[str, Junction] = MappingProxyType({})
 
 
 class Landing(NamedTuple):
@@ -74,22 +70,6 @@ class Landing(NamedTuple):
     onto: str
     point_m: Vector
     speed_m_s: float
-
-
-class _Approach(NamedTuple):
-    """A point at which an object came nearer to another one: travel there [m], and the normal towards the other.
-
-    meets : tells whether the two meet there, which may take a millisecond; None for sure. is_contact : False for the
-    edge of a door, and for a drawer; is_seen : False where nothing at the point shows that the object is there.
-    """
-
-    other: str
-    point_m: Vector
-    came_m: Vector
-    normal: Vector
-    meets: Callable[[], bool] | None = None
-    is_contact: bool = True
-    is_seen: bool = True
 
 
 class Landings:
@@ -111,24 +91,24 @@ class Landings:
         period_s: float,
     ) -> None:
         self._graph, self._middle_m, self._half_m = graph, middle_m, half_m
-        self._slam, self._is_closed = slam, is_closed
         self._period_s = period_s
-        self._tracks: dict[str, MotionTrack] = {}
+        self._motion = RelativeMotion(graph)
+        self._approaches = Approaches(graph, self._motion, slam, is_closed)
         self._near: dict[str, dict[str, Junction]] = {}
         """Contacts of each moving object before the present step, and in all of its updates but the last."""
-        self._n_updates = 0
         self._moved: dict[str, None] = {}
         self._n_waiting, self._looked_s, self._clock_runs = 0, 0.0, False
 
     def forget(self) -> None:
         """Forget all motions. Call it after a pause: the clock stood still, so that their speeds are unknown."""
-        self._tracks.clear()
+        self._motion.tracks.clear()
         self._near.clear()
         self._moved.clear()
 
     def begin(self, moved: Mapping[str, Pose], time_s: float) -> None:
         """Store poses and contacts of the objects that are about to move. Call it before the graph is updated."""
-        tracks, beside = self._tracks, self._graph.beside
+        motion, beside = self._motion, self._graph.beside
+        tracks = motion.tracks
         # The objects were still at rest at the last look, unless that is long ago: then the time of a step is unknown.
         since_s = self._looked_s if 0 < time_s - self._looked_s <= LONGEST_GAP_S else time_s - self._period_s
         for object_id, moves_to in moved.items():
@@ -141,7 +121,7 @@ class Landings:
                 # Some games give the poses of all objects in every frame. The graph refuses other types than poses.
                 if isinstance(moves_to, Pose) and pose != moves_to:
                     own_m = self._middle_m(object_id)
-                    tracks[object_id] = MotionTrack(self._n_updates, since_s, pose, own_m)
+                    tracks[object_id] = MotionTrack(motion.n_updates, since_s, pose, own_m)
 
     def look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
         """Find the objects that landed in this update. Call it in each one, after the graph is updated."""
@@ -166,13 +146,14 @@ class Landings:
         return False
 
     def _look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
-        self._n_updates = now = self._n_updates + 1
+        self._motion.n_updates = now = self._motion.n_updates + 1
+        tracks = self._motion.tracks
         moving: list[tuple[str, MotionTrack, Pose, tuple[Vector, Vector]]] = []
         stopped: list[str] = []
         changed: list[str] = []
         at_rest: list[str] = []
         beside = self._graph.beside  # an object without contacts has not landed
-        for object_id, track in self._tracks.items():
+        for object_id, track in tracks.items():
             pose = moved.get(object_id)
             step = track.step_to(pose)
             if pose is not None and step is not None:
@@ -183,10 +164,7 @@ class Landings:
                 if (
                     change >= _LEAST_CHANGE
                     and (object_id in beside or object_id in self._near)
-                    and (
-                        change >= _SUDDEN * dot(before, before)
-                        or not self._tracks.keys().isdisjoint(self._met(object_id))
-                    )
+                    and (change >= _SUDDEN * dot(before, before) or not tracks.keys().isdisjoint(self._met(object_id)))
                 ):
                     changed.append(object_id)
             elif (track.has_stopped(now) or track.has_stopped(now - 1)) and beside.get(object_id) and track.is_falling:
@@ -195,18 +173,18 @@ class Landings:
                 at_rest.append(object_id)
         if changed:
             steps_m = {object_id: step_m for object_id, _, _, (step_m, _) in moving}
-            stopped += [x for x in changed if self._tracks[x].is_falling and self._is_sudden(x, steps_m)]
-        found = [one for object_id in stopped for one in self._landing(object_id, self._tracks[object_id], time_s)]
+            stopped += [x for x in changed if tracks[x].is_falling and self._is_sudden(x, steps_m)]
+        found = [one for object_id in stopped for one in self._landing(object_id, tracks[object_id], time_s)]
         for _, track, pose, (step_m, middle_m) in moving:
             track.follow(now, time_s, pose, step_m, middle_m)
         for object_id in at_rest:
-            del self._tracks[object_id]
+            del tracks[object_id]
         if not found:
             return found
         for landing in found:
-            self._tracks[landing.object_id].land(now)
+            tracks[landing.object_id].land(now)
             # Else the other one, which moves too, as in a vehicle, would land on this one in one of the next updates.
-            if (other := self._tracks.get(landing.onto)) is not None:
+            if (other := tracks.get(landing.onto)) is not None:
                 other.meet(now)
         # Two objects that met each other landed once.
         met = {(one.object_id, one.onto) for one in found}
@@ -214,7 +192,7 @@ class Landings:
 
     def _met(self, object_id: str) -> Mapping[str, Junction]:
         """Return the present contacts of an object, and those that ended in this step."""
-        near, beside = self._near.get(object_id, _NOTHING), self._graph.beside.get(object_id, _NOTHING)
+        near, beside = self._near.get(object_id, NO_JUNCTIONS), self._graph.beside.get(object_id, NO_JUNCTIONS)
         if near.keys() <= beside.keys():
             return beside
         return {**beside, **{x: near[x] for x in near if x not in beside}}
@@ -224,14 +202,14 @@ class Landings:
 
         Parameters: steps_m : of all objects that moved in this update.
         """
-        track = self._tracks[object_id]
-        beside = self._graph.beside.get(object_id, _NOTHING)
+        track = self._motion.tracks[object_id]
+        beside = self._graph.beside.get(object_id, NO_JUNCTIONS)
         for other in self._met(object_id):
-            theirs, their_m = self._tracks.get(other), STILL
+            theirs, their_m = self._motion.tracks.get(other), STILL
             if theirs is not None and theirs.steps[-1][0] == track.steps[-1][0]:
                 their_m = theirs.step_m
-            now = _difference(steps_m[object_id], steps_m.get(other, STILL))
-            before = _difference(track.step_m, their_m)
+            now = difference(steps_m[object_id], steps_m.get(other, STILL))
+            before = difference(track.step_m, their_m)
             # Without a contact now, only an object that turned back may have met the other one.
             if (other in beside or dot(now, before) < 0) and _change(now, before) >= max(
                 _LEAST_CHANGE, _SUDDEN * dot(before, before)
@@ -244,9 +222,9 @@ class Landings:
         there is none. A drawer is one only if no contact shows what it met."""
         runs = track.run(), track.run(1)  # the two may have met early in the last step
         met, between = self._met(object_id), (runs[1][0][0], runs[0][-1][0])
-        found = self._fastest(object_id, track, runs, time_s, self._at_contacts(object_id, track, met, between))
+        found = self._fastest(object_id, track, runs, time_s, self._approaches.at_contacts(object_id, met, between))
         if found is None:
-            found = self._fastest(object_id, track, runs, time_s, self._in_holders(object_id, track, between))
+            found = self._fastest(object_id, track, runs, time_s, self._approaches.in_holders(object_id, between))
         if found is None:
             return []
         return [found] if LEAST_SPEED_M_S <= found.speed_m_s <= FASTEST_M_S else []
@@ -257,16 +235,16 @@ class Landings:
         track: MotionTrack,
         runs: tuple[Sequence[tuple[int, float]], Sequence[tuple[int, float]]],
         time_s: float,
-        approaches: Iterable[_Approach],
+        approaches: Iterable[Approach],
     ) -> Landing | None:
         """The fastest of several approaches at which an object met another."""
         steps = sorted({*runs[0], *runs[1]})
         (first, _), (before, before_s), (last, end_s) = steps[0], steps[-2], steps[-1]
-        best, most_m, now = None, LEAST_TRAVEL_M, self._n_updates
+        best, most_m, now = None, LEAST_TRAVEL_M, self._motion.n_updates
         # The step after a long frame is short, without being slow. The ratio is unknown if the clock stands still.
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
-        beside = self._graph.beside.get(object_id, _NOTHING)
+        beside = self._graph.beside.get(object_id, NO_JUNCTIONS)
         has_just_stopped = self._graph.pose(object_id) == track.pose and track.has_stopped(now)
         for one in approaches:
             other, point, came, normal = one[:4]
@@ -277,10 +255,10 @@ class Landings:
                 # Physics may be slower than the frames, and miss one: has it stopped in mid air?
                 if has_just_stopped and not (one.is_seen and self._is_at(object_id, track, point, normal)):
                     continue
-                step = dot(self._nearing(object_id, other, point, before, last), normal)
-                onward = dot(self._nearing(object_id, other, point, last, now), normal)
+                step = dot(self._motion.nearing_m(object_id, other, point, before, last), normal)
+                onward = dot(self._motion.nearing_m(object_id, other, point, last, now), normal)
                 most = LEFT * step * shorter if other in beside else 0.0
-                middle_m = self._middle_nearing_m(object_id, other, point, normal, first, last)
+                middle_m = self._motion.middle_nearing_m(object_id, other, point, normal, first, last)
                 if onward > most or middle_m < ROLLS * closing:
                     continue
                 if not self._stops_suddenly(object_id, other, point, normal, [*steps, (now, time_s)]):
@@ -290,42 +268,6 @@ class Landings:
                     best, most_m = Landing(object_id, other, point, speed), closing
         return best
 
-    def _at_contacts(
-        self, object_id: str, track: MotionTrack, met: Mapping[str, Junction], between: tuple[int, int]
-    ) -> Iterator[_Approach]:
-        """Approaches at the present and former contacts of an object, and at its edge if a hinge holds it.
-
-        Present contacts come first, a contact at a hinge last among these, since a contact elsewhere shows where the
-        two objects meet. Sorted, since the graph's order depends on the hashes of ids, which differ in each run of
-        Python.
-        """
-        beside, pose = self._graph.beside.get(object_id, _NOTHING), self._graph.pose(object_id)
-        slam = self._slam(object_id, partial(self._way, track))
-        holder = None if slam is None else slam.holder
-        for other in sorted(met, key=lambda x: (x not in beside, x == holder, x)):
-            meets: Callable[[], bool] | None = None
-            if slam is not None and other == holder:
-                point = in_world(slam.edge_m, pose)
-                came = self._nearing(object_id, other, point, *between)
-                yield _Approach(other, point, came, _direction(came), slam.meets, is_contact=False)
-                meets = slam.misses
-            for side in _sides(met[other]):
-                point = _middle(side)
-                came = self._nearing(object_id, other, point, *between)
-                yield _Approach(other, point, came, self._normal(object_id, other, point, side, between[0]), meets)
-
-    def _in_holders(self, object_id: str, track: MotionTrack, between: tuple[int, int]) -> Iterator[_Approach]:
-        """Approaches of a drawer to what encloses it."""
-        beside = self._graph.beside.get(object_id, _NOTHING)
-        for other in sorted(beside):
-            point = _middle(beside[other])
-            came = self._nearing(object_id, other, point, *between)
-            closed = partial(self._is_drawer_of, object_id, track, other)
-            yield _Approach(other, point, came, _direction(came), closed, is_contact=False, is_seen=False)
-
-    def _is_drawer_of(self, object_id: str, track: MotionTrack, other: str) -> bool:
-        return self._is_closed(object_id, other, self._way(track, other))
-
     def _is_at(self, object_id: str, track: MotionTrack, point_m: Vector, normal: Vector) -> bool:
         """Whether an object reaches a contact.
 
@@ -334,7 +276,7 @@ class Landings:
         """
         own_normal: list[float] = (np.array(normal) @ self._graph.pose(object_id).rotation).tolist()
         reach_m = sum(abs(part) * half for part, half in zip(own_normal, self._half_m(object_id), strict=True))
-        return 2 * (dot(_difference(point_m, track.middle_m), normal) - reach_m) <= TOUCH_M
+        return 2 * (dot(difference(point_m, track.middle_m), normal) - reach_m) <= TOUCH_M
 
     def _speed(
         self, object_id: str, other: str, point_m: Vector, normal: Vector, run: Sequence[tuple[int, float]]
@@ -344,24 +286,18 @@ class Landings:
         The chord of a fast turn is no measure of its speed: the bottom of a spinning ball was lately its top. The first
         step of a motion counts only alone, since a part of it was rest, or the motion before.
         """
-        if len(run) > 2 and run[0][0] == self._tracks[object_id].since:
+        if len(run) > 2 and run[0][0] == self._motion.tracks[object_id].since:
             run = run[1:]
         (first, begin_s), (last, end_s) = run[0], run[-1]
         n_updates, elapsed_s = last - first, end_s - begin_s
         stands_still = elapsed_s <= 0 or (n_updates > 1 and run[1][1] == end_s)
         period_s = self._period_s if stands_still else elapsed_s / n_updates
-        came_m = self._middle_nearing_m(object_id, other, point_m, normal, first, last)
+        came_m = self._motion.middle_nearing_m(object_id, other, point_m, normal, first, last)
         turned_m = sum(
-            dot(self._spin(object_id, point_m, since, until), normal) for (since, _), (until, _) in pairwise(run)
+            dot(self._motion.spin_m(object_id, point_m, since, until), normal)
+            for (since, _), (until, _) in pairwise(run)
         )
         return (came_m + turned_m) / n_updates / period_s
-
-    def _way(self, track: MotionTrack, other: str) -> RelativePoses:
-        theirs, its = self._tracks.get(other), self._graph.pose(other)
-        (before, *_), (last, *_) = track.steps[-2:]
-        begin = max(track.since, track.steps[0][0], theirs.steps[0][0] if theirs is not None else 0)
-        updates = (begin, before, last)
-        return [(track.pose_at(x), theirs.pose_at(x) if theirs is not None else its) for x in updates]
 
     def _stops_suddenly(
         self, object_id: str, other: str, point_m: Vector, normal: Vector, run: list[tuple[int, float]]
@@ -371,7 +307,8 @@ class Landings:
         steps: list[tuple[float, float]] = []
         for (since, begin_s), (until, end_s) in pairwise(run):
             lasts_s = end_s - begin_s if end_s > begin_s else (until - since) * self._period_s
-            steps.append((dot(self._nearing(object_id, other, point_m, since, until), normal) / lasts_s, lasts_s))
+            came_m = dot(self._motion.nearing_m(object_id, other, point_m, since, until), normal)
+            steps.append((came_m / lasts_s, lasts_s))
         fastest, stands_still = 0.0, steps[-1][0] == 0
         for i, ((speed, lasted_s), (now, lasts_s)) in enumerate(pairwise(steps), 3):
             most = min(BRAKES_M_S2 * (lasted_s + lasts_s) / 2, BRAKES_M_S)
@@ -381,120 +318,9 @@ class Landings:
                 return True
         return False
 
-    def _middle_nearing_m(
-        self, object_id: str, other: str, point_m: Vector, normal: Vector, since: int, until: int
-    ) -> float:
-        """Travel of an object's middle between two updates along a normal, relative to another object [m]."""
-        track = self._tracks[object_id]
-        begin, end = in_world(track.own_m, track.pose_at(since)), in_world(track.own_m, track.pose_at(until))
-        return dot(_difference(_difference(end, begin), self._travel(other, point_m, since, until)), normal)
-
-    def _spin(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
-        """Product of the sine of the turn between two updates and the arm from the object's middle to a point [m]."""
-        track = self._tracks[object_id]
-        begin, end = track.pose_at(since), track.pose_at(until)
-        if begin.rotation_xyzw == end.rotation_xyzw:
-            return STILL
-        turn = end.rotation @ begin.rotation.T
-        arm_m = np.subtract(point_m, in_world(track.own_m, self._graph.pose(object_id)))
-        x, y, z = ((turn - turn.T) / 2 @ arm_m).tolist()
-        return x, y, z
-
-    def _nearing(self, object_id: str, other: str, point_m: Vector, since: int, until: int) -> Vector:
-        """Travel of a point of an object between two updates, relative to another object [m]."""
-        x, y, z = self._travel(object_id, point_m, since, until)
-        a, b, c = self._travel(other, point_m, since, until)
-        return x - a, y - b, z - c
-
-    def _travel(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
-        """Travel between two updates [m] of the part of an object that is now at a point."""
-        track, pose = self._tracks.get(object_id), self._graph.pose(object_id)
-        if track is None:
-            return STILL
-        begin, end = track.pose_at(since), pose if until >= self._n_updates else track.pose_at(until)
-        if begin.rotation_xyzw == end.rotation_xyzw == pose.rotation_xyzw:
-            (a, b, c), (x, y, z) = begin.position_m, end.position_m
-            return x - a, y - b, z - c
-        own = pose.to_own([point_m])
-        x, y, z = (end.to_world(own) - begin.to_world(own))[0].tolist()
-        return x, y, z
-
-    def _normal(self, object_id: str, other: str, point_m: Vector, junction: Junction, since: int) -> Vector:
-        """Normal from the object to the other: the contact's, else that of its points if they span a plane, else the
-        direction from the object's middle to the contact.
-
-        Engines let small objects sink into others. Once the middle of an object is below the surface, the contact seems
-        to be on its other side. The side from which the object came, since an update, is then the right one.
-        """
-        middle_m = in_world(self._tracks[object_id].own_m, self._graph.pose(object_id))
-        outward = _difference(point_m, middle_m)
-        normal = _given_normal(object_id, other, outward, junction)
-        came = self._nearing(object_id, other, middle_m, since, self._n_updates)
-        outside = dot(outward, normal)
-        if outside > 0 > outside + dot(came, normal):
-            return -normal[0], -normal[1], -normal[2]
-        return normal
-
-
-def _given_normal(object_id: str, other: str, outward: Vector, junction: Junction) -> Vector:
-    for normal in junction.normals:
-        if normal is not None:
-            x, y, z = normal
-            return normal if object_id < other else (-x, -y, -z)
-    across = _normal_of_plane(junction.points_m)
-    if across is not None and (height := dot(across, outward)):
-        x, y, z = across
-        return across if height > 0 else (-x, -y, -z)
-    return _direction(outward)
-
-
-def _direction(way: Vector) -> Vector:
-    """The unit vector along a way, zero for none."""
-    length = math.hypot(*way)
-    return (way[0] / length, way[1] / length, way[2] / length) if length > 0 else STILL
-
-
-def _normal_of_plane(points_m: Sequence[Vector]) -> Vector | None:
-    """Unit normal, of either sign, of the plane through three of three or more points that are far apart; None if these
-    lie on a line, or another one does not lie on the plane."""
-    if len(points_m) < _PLANE_POINTS:
-        return None
-    ways = [_difference(point, points_m[0]) for point in points_m]
-    longest = max(ways, key=lambda way: dot(way, way))
-    across = max((cross(longest, way) for way in ways), key=lambda area: dot(area, area))
-    width_m = math.hypot(*across) / (math.hypot(*longest) or 1.0)
-    normal = _direction(across)
-    heights = [dot(normal, way) for way in ways]
-    return normal if width_m > _LEAST_WIDTH_M and max(heights) - min(heights) < _FLAT * width_m else None
-
-
-def _difference(one: Vector, other: Vector) -> Vector:
-    return one[0] - other[0], one[1] - other[1], one[2] - other[2]
-
 
 def _change(one: Vector, other: Vector) -> float:
     """Square of the distance of two vectors."""
     (x, y, z), (u, v, w) = one, other
     x, y, z = x - u, y - v, z - w
     return x * x + y * y + z * z
-
-
-def _sides(junction: Junction) -> list[Junction]:
-    """Split a contact by its normals, as of an object that slides on a tray and meets its rim."""
-    if len(set(junction.normals)) < 2:
-        return [junction]
-    sides: dict[tuple[float, ...] | None, list[int]] = {}
-    for row, normal in enumerate(junction.normals):
-        # Engines round the normals of one face differently.
-        side = None if normal is None else tuple(round(x, 1) for x in normal)
-        sides.setdefault(side, []).append(row)
-    points_m, weights, normals = junction.points_m, junction.weights, junction.normals
-    return [
-        Junction(tuple(points_m[row] for row in rows), tuple(weights[row] for row in rows), (normals[rows[0]],))
-        for rows in sides.values()
-    ]
-
-
-def _middle(junction: Junction) -> Vector:
-    x, y, z = (sum(axis) / len(junction.points_m) for axis in zip(*junction.points_m, strict=True))
-    return x, y, z

@@ -1,0 +1,161 @@
+"""Approaches: the points at which a moving object came nearer to another one, each with its normal.
+
+They are the contacts of the object, the far edge of a door or lid, and what encloses a drawer.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+from types import MappingProxyType
+from typing import NamedTuple
+
+from scene2hap.contact.graph import ContactGraph
+from scene2hap.contact.junction import Junction
+from scene2hap.scene.geometry import Vector, cross, difference, dot
+from scene2hap.session.impacts.motion_track import STILL, in_world
+from scene2hap.session.impacts.relative_motion import RelativeMotion
+from scene2hap.session.impacts.slams import RelativePoses, Slam
+
+_PLANE_POINTS, _LEAST_WIDTH_M, _FLAT = 3, 0.003, 0.1
+"""Fewest points of a contact that span a plane, their least width, and their largest thickness relative to it."""
+
+NO_JUNCTIONS: Mapping[str, Junction] = MappingProxyType({})
+
+
+class Approach(NamedTuple):
+    """A point at which an object came nearer to another one: travel there [m], and the normal towards the other.
+
+    meets : tells whether the two meet there, which may take a millisecond; None for sure. is_contact : False for the
+    edge of a door, and for a drawer; is_seen : False where nothing at the point shows that the object is there.
+    """
+
+    other: str
+    point_m: Vector
+    came_m: Vector
+    normal: Vector
+    meets: Callable[[], bool] | None = None
+    is_contact: bool = True
+    is_seen: bool = True
+
+
+class Approaches:
+    """Lists the approaches of an object between two updates.
+
+    Parameters: slam : what an object on a hinge may slam against; is_closed : whether an object is a closed drawer of
+    another.
+    """
+
+    def __init__(
+        self,
+        graph: ContactGraph,
+        motion: RelativeMotion,
+        slam: Callable[[str, Callable[[str], RelativePoses]], Slam | None],
+        is_closed: Callable[[str, str, RelativePoses], bool],
+    ) -> None:
+        self._graph, self._motion, self._slam, self._is_closed = graph, motion, slam, is_closed
+
+    def at_contacts(self, object_id: str, met: Mapping[str, Junction], between: tuple[int, int]) -> Iterator[Approach]:
+        """Approaches at the present and former contacts of an object, and at its edge if a hinge holds it.
+
+        Present contacts come first, a contact at a hinge last among these, since a contact elsewhere shows where the
+        two objects meet. Sorted, since the graph's order depends on the hashes of ids, which differ in each run of
+        Python.
+        """
+        beside, pose = self._graph.beside.get(object_id, NO_JUNCTIONS), self._graph.pose(object_id)
+        slam = self._slam(object_id, partial(self._motion.poses, object_id))
+        holder = None if slam is None else slam.holder
+        for other in sorted(met, key=lambda x: (x not in beside, x == holder, x)):
+            meets: Callable[[], bool] | None = None
+            if slam is not None and other == holder:
+                point = in_world(slam.edge_m, pose)
+                came = self._motion.nearing_m(object_id, other, point, *between)
+                yield Approach(other, point, came, _direction(came), slam.meets, is_contact=False)
+                meets = slam.misses
+            for side in _sides(met[other]):
+                point = _middle(side)
+                came = self._motion.nearing_m(object_id, other, point, *between)
+                yield Approach(other, point, came, self._normal(object_id, other, point, side, between[0]), meets)
+
+    def in_holders(self, object_id: str, between: tuple[int, int]) -> Iterator[Approach]:
+        """Approaches of a drawer to what encloses it."""
+        beside = self._graph.beside.get(object_id, NO_JUNCTIONS)
+        for other in sorted(beside):
+            point = _middle(beside[other])
+            came = self._motion.nearing_m(object_id, other, point, *between)
+            closed = partial(self._is_drawer_of, object_id, other)
+            yield Approach(other, point, came, _direction(came), closed, is_contact=False, is_seen=False)
+
+    def _is_drawer_of(self, object_id: str, other: str) -> bool:
+        return self._is_closed(object_id, other, self._motion.poses(object_id, other))
+
+    def _normal(self, object_id: str, other: str, point_m: Vector, junction: Junction, since: int) -> Vector:
+        """Normal from the object to the other: the contact's, else that of its points if they span a plane, else the
+        direction from the object's middle to the contact.
+
+        Engines let small objects sink into others. Once the middle of an object is below the surface, the contact seems
+        to be on its other side. The side from which the object came, since an update, is then the right one.
+        """
+        motion = self._motion
+        middle_m = in_world(motion.tracks[object_id].own_m, self._graph.pose(object_id))
+        outward = difference(point_m, middle_m)
+        normal = _given_normal(object_id, other, outward, junction)
+        came = motion.nearing_m(object_id, other, middle_m, since, motion.n_updates)
+        outside = dot(outward, normal)
+        if outside > 0 > outside + dot(came, normal):
+            return -normal[0], -normal[1], -normal[2]
+        return normal
+
+
+def _given_normal(object_id: str, other: str, outward: Vector, junction: Junction) -> Vector:
+    for normal in junction.normals:
+        if normal is not None:
+            x, y, z = normal
+            return normal if object_id < other else (-x, -y, -z)
+    across = _normal_of_plane(junction.points_m)
+    if across is not None and (height := dot(across, outward)):
+        x, y, z = across
+        return across if height > 0 else (-x, -y, -z)
+    return _direction(outward)
+
+
+def _direction(way: Vector) -> Vector:
+    """The unit vector along a way, zero for none."""
+    length = math.hypot(*way)
+    return (way[0] / length, way[1] / length, way[2] / length) if length > 0 else STILL
+
+
+def _normal_of_plane(points_m: Sequence[Vector]) -> Vector | None:
+    """Unit normal, of either sign, of the plane through three of three or more points that are far apart; None if these
+    lie on a line, or another one does not lie on the plane."""
+    if len(points_m) < _PLANE_POINTS:
+        return None
+    ways = [difference(point, points_m[0]) for point in points_m]
+    longest = max(ways, key=lambda way: dot(way, way))
+    across = max((cross(longest, way) for way in ways), key=lambda area: dot(area, area))
+    width_m = math.hypot(*across) / (math.hypot(*longest) or 1.0)
+    normal = _direction(across)
+    heights = [dot(normal, way) for way in ways]
+    return normal if width_m > _LEAST_WIDTH_M and max(heights) - min(heights) < _FLAT * width_m else None
+
+
+def _sides(junction: Junction) -> list[Junction]:
+    """Split a contact by its normals, as of an object that slides on a tray and meets its rim."""
+    if len(set(junction.normals)) < 2:
+        return [junction]
+    sides: dict[tuple[float, ...] | None, list[int]] = {}
+    for row, normal in enumerate(junction.normals):
+        # Engines round the normals of one face differently.
+        side = None if normal is None else tuple(round(x, 1) for x in normal)
+        sides.setdefault(side, []).append(row)
+    points_m, weights, normals = junction.points_m, junction.weights, junction.normals
+    return [
+        Junction(tuple(points_m[row] for row in rows), tuple(weights[row] for row in rows), (normals[rows[0]],))
+        for rows in sides.values()
+    ]
+
+
+def _middle(junction: Junction) -> Vector:
+    x, y, z = (sum(axis) / len(junction.points_m) for axis in zip(*junction.points_m, strict=True))
+    return x, y, z

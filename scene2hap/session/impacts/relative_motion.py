@@ -1,0 +1,68 @@
+"""Motions of objects relative to each other, between two updates of a session."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from scene2hap.contact.graph import ContactGraph
+from scene2hap.scene.geometry import Vector, difference, dot
+from scene2hap.session.impacts.motion_track import STILL, MotionTrack, in_world
+from scene2hap.session.impacts.slams import RelativePoses
+
+
+class RelativeMotion:
+    """The tracks of the objects that moved of late, and the travel of points of these objects.
+
+    tracks : by id; an object without a track is at rest. n_updates : the number of the present update, in which the
+    graph has the poses. Parts of objects are named by the point in the world at which they are now [m].
+    """
+
+    def __init__(self, graph: ContactGraph) -> None:
+        self._graph = graph
+        self.tracks: dict[str, MotionTrack] = {}
+        self.n_updates: int = 0
+
+    def nearing_m(self, object_id: str, other: str, point_m: Vector, since: int, until: int) -> Vector:
+        """Return the travel of a point of an object between two updates, relative to another object."""
+        return difference(
+            self._travel_m(object_id, point_m, since, until), self._travel_m(other, point_m, since, until)
+        )
+
+    def middle_nearing_m(
+        self, object_id: str, other: str, point_m: Vector, normal: Vector, since: int, until: int
+    ) -> float:
+        """Return the travel of an object's middle along a normal, relative to a point of another object."""
+        track = self.tracks[object_id]
+        begin, end = in_world(track.own_m, track.pose_at(since)), in_world(track.own_m, track.pose_at(until))
+        return dot(difference(difference(end, begin), self._travel_m(other, point_m, since, until)), normal)
+
+    def spin_m(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
+        """Return the product of the sine of an object's turn and the arm from its middle to a point."""
+        track = self.tracks[object_id]
+        begin, end = track.pose_at(since), track.pose_at(until)
+        if begin.rotation_xyzw == end.rotation_xyzw:
+            return STILL
+        turn = end.rotation @ begin.rotation.T
+        arm_m = np.subtract(point_m, in_world(track.own_m, self._graph.pose(object_id)))
+        x, y, z = ((turn - turn.T) / 2 @ arm_m).tolist()
+        return x, y, z
+
+    def poses(self, object_id: str, other: str) -> RelativePoses:
+        """Return the poses of both at the start of the object's motion, before its last step and after it."""
+        track, theirs, its = self.tracks[object_id], self.tracks.get(other), self._graph.pose(other)
+        (before, *_), (last, *_) = track.steps[-2:]
+        begin = max(track.since, track.steps[0][0], theirs.steps[0][0] if theirs is not None else 0)
+        updates = (begin, before, last)
+        return [(track.pose_at(x), theirs.pose_at(x) if theirs is not None else its) for x in updates]
+
+    def _travel_m(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
+        """Return the travel of a point of an object between two updates."""
+        track, pose = self.tracks.get(object_id), self._graph.pose(object_id)
+        if track is None:
+            return STILL
+        begin, end = track.pose_at(since), pose if until >= self.n_updates else track.pose_at(until)
+        if begin.rotation_xyzw == end.rotation_xyzw == pose.rotation_xyzw:
+            return difference(end.position_m, begin.position_m)
+        own = pose.to_own([point_m])
+        x, y, z = (end.to_world(own) - begin.to_world(own))[0].tolist()
+        return x, y, z
