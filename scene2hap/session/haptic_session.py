@@ -248,7 +248,7 @@ class HapticSession:
         Parameters: points_m : for each hand its points (n, 3) or one point (3,) in the world [m], None while the hand
         is not tracked; moved : poses that the next update will get, by id.
         Raises: SessionError: an unknown hand, points that are not finite or of another shape, a distance below 0 or
-        above 1 m; SceneError: another type than a pose.
+        above 1 m; UnknownObject: a moved object is not in the scene; SceneError: another type than a pose.
         """
         points = given_points(points_m, self._hands)
         within_m = checks.number("within_m", within_m, "m", at_least=0.0, at_most=1.0, error=SessionError)
@@ -256,6 +256,7 @@ class HapticSession:
         poses = self._state.poses
         if moved:
             for object_id, pose in moved.items():
+                self._state.require(object_id)
                 require_pose(object_id, pose)
             poses = {**poses, **moved}
         return self._proximity.touches(points, self._state.objects, poses, within_m, depth_m)

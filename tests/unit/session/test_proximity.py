@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scene2hap import HapticBundle, HapticSession, Pose, SceneObject, Touch, TriMesh
-from scene2hap.errors import SceneError, SessionError
+from scene2hap import HapticBundle, HapticSession, Pose, SceneObject, SceneWarning, Touch, TriMesh, bake
+from scene2hap.errors import SceneError, SessionError, UnknownObject
 from scene2hap.scene.objects import Contact
 from scenes import box, haptics, scene, tone_loop
 
@@ -131,3 +131,13 @@ def test_errors_name_the_value(points: Any, settings: dict[str, Any], message: s
 def test_moved_objects_need_poses() -> None:
     with pytest.raises(SceneError, match="it must be a Pose"):
         session().touches_at({"left": (0.0, 0.0, 0.0)}, {"phone": (0.0, 1.0, 0.0)})  # type: ignore[dict-item]
+    with pytest.raises(UnknownObject, match="fone"):
+        session().touches_at({"left": (0.0, 0.0, 0.0)}, {"fone": Pose()})
+
+
+def test_a_single_object_is_touched() -> None:
+    alone = scene(box("cube", (0.1, 0.1, 0.1), (0.0, 0.0, 0.0)))
+    with pytest.warns(SceneWarning, match="nothing will be felt"):
+        s = HapticSession(alone, bake(alone))
+    (touch,) = s.touches_at({"left": (0.0, 0.0, 0.045)})
+    assert (touch.object_id, touch.point_m) == ("cube", pytest.approx((0.0, 0.0, 0.05)))
