@@ -28,12 +28,11 @@ _EQUAL = 1e-9
 
 
 class _Near(NamedTuple):
-    """A point of a hand, in the frame of an object near it [m], and the columns of the triangles near the point."""
+    """A point in the frame of an object near it [m], the numbers of both, and the columns of the triangles near it."""
 
-    hand: str
-    object_id: str
+    point: int
+    item: int
     own_point: Floats
-    shape: Shape
     columns: Indices
 
 
@@ -60,40 +59,36 @@ class Proximity:
         A point touches a surface that is up to `within_m` away, or up to `depth_m` if it lies behind the face there.
         """
         self._follow(objects, poses)
-        reach_m = max(within_m, depth_m)
-        near = [
-            one for hand, points in points_m.items() for point in points for one in self._near(hand, point, reach_m)
-        ]
+        hands = [hand for hand, points in points_m.items() for _ in points]
+        near = self._near(np.concatenate([*points_m.values()]), max(within_m, depth_m)) if hands else []
         if not near:
             return []
         counts = np.array([len(one.columns) for one in near])
-        triangles = np.concatenate([one.shape.triangles.take(one.columns, axis=2) for one in near], axis=2)
-        points, distances, heights = nearest_points(
-            np.repeat(np.array([one.own_point for one in near]).T, counts, axis=1), triangles
-        )
+        triangles = [self._shapes[one.item].triangles.take(one.columns, axis=2) for one in near]
+        own_points = np.repeat(np.array([one.own_point for one in near]).T, counts, axis=1)
+        points, distances, heights = nearest_points(own_points, np.concatenate(triangles, axis=2))
         found = []
         for one, first, n in zip(near, (np.cumsum(counts) - counts).tolist(), counts.tolist(), strict=True):
-            of_one = distances[first : first + n]
-            least = float(of_one.min())
+            least = float(distances[first : first + n].min())
             # Of the faces at an edge or a corner, the one that looks most towards the point or away from it decides.
-            equal = first + np.flatnonzero(of_one <= least * (1.0 + _EQUAL))
+            equal = first + np.flatnonzero(distances[first : first + n] <= least * (1.0 + _EQUAL))
             k = equal[np.abs(heights[equal]).argmax()]
             if least <= (depth_m if heights[k] < 0.0 else within_m):
-                found.append(
-                    Touch(one.hand, one.object_id, poses[one.object_id].to_world(points[:, k][None])[0].tolist())
-                )
+                object_id = self._ids[one.item]
+                (touched,) = poses[object_id].to_world(points[:, k][None]).tolist()
+                found.append(Touch(hands[one.point], object_id, touched))
         return found
 
-    def _near(self, hand: str, point: Floats, reach_m: float) -> list[_Near]:
-        """Return the objects with triangles whose boxes are within `reach_m` of a point in the world [m]."""
-        own_points = np.einsum("nij,ni->nj", self._rotations, point - self._positions)
+    def _near(self, points: Floats, reach_m: float) -> list[_Near]:
+        """Return the points (n, 3) [m] that are within `reach_m` of the boxes around triangles, for each object."""
+        own_points = np.einsum("kij,nki->nkj", self._rotations, points[:, None] - self._positions)
         low, high = self._boxes
-        is_near = ((own_points >= low - reach_m) & (own_points <= high + reach_m)).all(axis=1)
+        is_near = ((own_points >= low - reach_m) & (own_points <= high + reach_m)).all(axis=2)
         found = []
-        for k in np.flatnonzero(is_near).tolist():
-            columns = _columns_near(self._shapes[k], own_points[k], reach_m)
+        for i, k in np.argwhere(is_near).tolist():
+            columns = _columns_near(self._shapes[k], own_points[i, k], reach_m)
             if columns.size:
-                found.append(_Near(hand, self._ids[k], own_points[k], self._shapes[k], columns))
+                found.append(_Near(i, k, own_points[i, k], columns))
         return found
 
     def _follow(self, objects: Mapping[str, SceneObject], poses: Mapping[str, Pose]) -> None:
