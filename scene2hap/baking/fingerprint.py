@@ -7,6 +7,7 @@ converter  kind and settings
 actuator   the profile
 intensity  of the state
 plan       the source's place among the others: frequencies and level
+corrections  a person's sound, intensity and pitch, for a warning if they are not baked yet; in other digests, too
 
 If `words` or `sources` differ, a sound is chosen again. If another digest differs, its loops are made again.
 """

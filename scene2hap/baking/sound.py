@@ -34,6 +34,7 @@ from scene2hap.baking.fingerprint import (
 )
 from scene2hap.baking.recorded_times import NO_RUNS, Runs, runs_of, shown_runs
 from scene2hap.bundle import BundleWarning, Override
+from scene2hap.bundle.pending_corrections import CORRECTIONS, corrections_digest
 from scene2hap.common.blas_threads import one_blas_thread
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import AudioError
@@ -119,7 +120,9 @@ async def make_loops(
     parts = []
     for done, (object_id, haptics, state) in enumerate(wanted, start=1):
         part, why = await asyncio.to_thread(chooser.part, object_id, haptics, state)
-        parts.append(replace(part, pitch_hz=_pitch_hz(object_id, state.name, overrides, config)))
+        request = {**part.request, CORRECTIONS: corrections_digest(overrides.get(object_id, Override()), state.name)}
+        pitch_hz = _pitch_hz(object_id, state.name, overrides, config)
+        parts.append(replace(part, request=request, pitch_hz=pitch_hz))
         if why:
             sounds.choices.setdefault(object_id, {})[state.name] = why
         tell("sound", object_id, done, len(wanted))
