@@ -250,6 +250,7 @@ async def arebake(
         progress=progress,
         only=again,
         scene_category=bundle.scene_category,
+        before=bundle.objects,
     )
     if on_report is not None:
         on_report(inference.report)
