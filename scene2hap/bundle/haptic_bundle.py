@@ -23,7 +23,7 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
 from scene2hap.common.counted import counted
 from scene2hap.common.warning import warn_of
-from scene2hap.errors import AudioError, BundleError, MaterialError, SceneError
+from scene2hap.errors import AudioError, BundleError, CallError, MaterialError, SceneError
 from scene2hap.haptics import is_unknown
 from scene2hap.materials import Material
 from scene2hap.scene.plausibility.check import too_heavy
@@ -253,6 +253,12 @@ class HapticBundle(BundleContents):
         if up_to_m is not None:
             up_to_m = checks.number("up_to_m", up_to_m, "m", error=BundleError)
         return plot_bundle(self, sources, up_to_m, figure)
+
+    def __hash__(self) -> int:
+        raise CallError(
+            "a HapticBundle is no key of a dictionary and no item of a set, since its parts are mappings. Use the path "
+            "of its folder, or bundle.snapshot."
+        )
 
     def __repr__(self) -> str:
         n_sources = sum(map(bool, self.loops.values()))
