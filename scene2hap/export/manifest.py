@@ -177,7 +177,8 @@ def _passage(course: TransitionCurve, lasts_s: float) -> PassageEntry | None:
         return None
     n = _POINTS if course.curve is None else len(course.curve.amplitude)
     shares = np.linspace(0.0, 1.0, n)
-    return PassageEntry(amplitude=tuple(course.amplitude(shares).tolist()), speed=tuple(course.speed(shares).tolist()))
+    amplitude, speed = (np.round(curve(shares), 5).tolist() for curve in (course.amplitude, course.speed))
+    return PassageEntry(amplitude=tuple(amplitude), speed=tuple(speed))
 
 
 def _object(bundle: HapticBundle, item: Any) -> ObjectEntry:
