@@ -236,7 +236,8 @@ async def arebake(
     _require_callable(progress=progress, on_report=on_report, on_remade=on_remade)
     config = BakeConfig.parse(config)
     given, config = config.model_fields_set, _settings_of(bundle, config)
-    bundle = bundle.without_corrections({key for key in bundle.inferred if bundle.overrides.get(key, NONE) == NONE})
+    for key in [key for key in bundle.inferred if bundle.overrides.get(key, NONE) == NONE]:
+        bundle = bundle.reset(key)  # its row was removed from the file
     if isinstance(objects, str):
         raise ConfigError(f"objects is the text {objects!r}; give a list of ids, [{objects!r}].")
     whole = [*checks.items("objects", objects, error=ConfigError), *renamed_objects(bundle)]

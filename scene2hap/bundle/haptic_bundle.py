@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -154,22 +154,19 @@ class HapticBundle(BundleContents):
         self.snapshot.object(object_id)
         if self.overrides.get(object_id, NONE).locked:
             raise _locked(object_id, "reset")
-        return self.without_corrections({object_id})
-
-    def without_corrections(self, object_ids: Set[str]) -> Self:
-        """Return the bundle with some objects as they were inferred. Raises: BundleError: that is unknown of one."""
         objects, loops = dict(self.objects), dict(self.loops)
-        for object_id in object_ids & objects.keys():
-            haptics = objects[object_id] = self.inferred.get(object_id, objects[object_id])
-            if USER in haptics.provenance.values() and "name" not in haptics.reasons:
+        overrides, inferred = dict(self.overrides), dict(self.inferred)
+        overrides.pop(object_id, None)
+        before = inferred.pop(object_id, objects.get(object_id))
+        if before is not None:
+            if USER in before.provenance.values() and "name" not in before.reasons:
                 raise BundleError(
                     f"{object_id!r} was corrected by an earlier version, which did not keep what was inferred. Remove "
                     "its row from overrides.json, and bake the scene again."
                 )
-            if not haptics.vibrates:
+            objects[object_id] = before
+            if not before.vibrates:
                 loops.pop(object_id, None)
-        overrides = {key: one for key, one in self.overrides.items() if key not in object_ids}
-        inferred = {key: one for key, one in self.inferred.items() if key not in object_ids}
         return replace(self, objects=objects, loops=loops, overrides=overrides, inferred=inferred)
 
     def corrected(self, file: str | os.PathLike[str]) -> Self:
