@@ -28,7 +28,7 @@ def json_problem(error: json.JSONDecodeError) -> str:
         return "it is empty; an empty JSON object is {}"
     if mark := _CONFLICT.search(text):
         line = text.count("\n", 0, mark.start()) + 1
-        return f"line {line} is {mark[1]}, where git merged two versions; keep one of them, and delete all such marks"
+        return f"line {line} is {mark[1]}, where git could not merge two versions; join them, and delete all such marks"
     here = text[:at].rstrip() + (rest := text[at:].lstrip())
     place = len(here) - len(rest)
     mend = next((mend for pattern, mend in _MENDS if re.compile(pattern).match(here, place)), "")

@@ -26,7 +26,7 @@ MISTAKES = {
     "a file that was cut": ('{"a": [1, 2', "the file ends before the last bracket is closed"),
     "two files in one": ('{"a": 1}\n{"b": 2}', "line 2, column 1: the file goes on after its last bracket"),
     "nothing": (" \n", "it is empty; an empty JSON object is {}"),
-    "marks of git": (MERGED, "line 2 is <<<<<<<, where git merged two versions; keep one of them"),
+    "marks of git": (MERGED, "line 2 is <<<<<<<, where git could not merge two versions; join them"),
     "the last mark of git": ('{"a": 1,\n>>>>>>> 3f2a\n"b": 2}', "line 2 is >>>>>>>"),
     "anything else": ('{"a": wrong}', "line 1, column 7: Expecting value"),
 }
@@ -52,7 +52,7 @@ def test_a_bundle_names_the_line_at_which_git_merged(name: str, tmp_path: Path) 
     lines = (folder / name).read_text(encoding="utf-8").splitlines()
     merged = [lines[0], "<<<<<<< HEAD", *lines[1:2], "=======", *lines[1:2], ">>>>>>> theirs", *lines[2:]]
     (folder / name).write_text("\n".join(merged), encoding="utf-8")
-    with pytest.raises(BundleError, match=rf"{name} cannot be read: line 2 is <<<<<<<.*git merged"):
+    with pytest.raises(BundleError, match=rf"{name} cannot be read: line 2 is <<<<<<<.*git could not merge"):
         HapticBundle.load(folder)
 
 
