@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import gzip
 import hashlib
 import json
 import re
@@ -343,9 +344,19 @@ def test_the_policy_names_the_script_and_the_style_of_the_page(html: str) -> Non
 
 def test_data_cannot_inject_markup() -> None:
     page = assemble({"scene": "</script><!--<script>\u2028"})
-    (data,) = re.findall(r'<script type="application/json" id="report">(.*?)</script>', page, re.S)
-    assert json.loads(data) == {"scene": "</script><!--<script>\u2028"}
-    assert "<" not in data
+    (data,) = re.findall(r'<script type="application/gzip" id="report">(.*?)</script>', page, re.S)
+    assert json.loads(gzip.decompress(base64.b64decode(data))) == {"scene": "</script><!--<script>\u2028"}
+    assert re.fullmatch("[A-Za-z0-9+/=]+", data)
+    assert page == assemble({"scene": "</script><!--<script>\u2028"})
+
+
+def test_data_that_are_cut_short_are_said_on_the_page(browser: Any, html: str, tmp_path: Path) -> None:
+    path = tmp_path / "report.html"
+    path.write_text(re.sub(r'(id="report">.{4000}).*?</script>', r"\1</script>", html, flags=re.S), encoding="utf-8")
+    page = browser.new_page()
+    page.goto(path.as_uri())
+    page.get_by_text("This report cannot be shown").wait_for(timeout=TIMEOUT_MS)
+    page.close()
 
 
 _WALLS = {

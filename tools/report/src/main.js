@@ -5,7 +5,7 @@ import { h, isolated, nameOf, pathOf, replaceChildren } from "./dom.js";
 import { LOWEST_CODE, feltLevels, shownLevel } from "./felt_levels.js";
 import { makeLegend } from "./legend.js";
 import { makePanel } from "./panel.js";
-import { readDocument } from "./report_document.js";
+import { readDocument, textOf } from "./report_document.js";
 import { download, isServed, send } from "./saving.js";
 import { makeSceneView } from "./scene_view.js";
 import { makeStore } from "./store.js";
@@ -20,14 +20,14 @@ const PAPER_PX = 700;
 
 const one = (selector) => document.querySelector(selector);
 
-try {
-  start(readDocument(one("#report").textContent));
-} catch (cause) {
-  // The data is incomplete or of another version: show the error on the page and in the console.
-  one("#problem").textContent = `This report cannot be shown: ${cause.message}`;
-  one("#problem").hidden = false;
-  throw cause;
-}
+textOf(one("#report").textContent)
+  .then((text) => start(readDocument(text)))
+  .catch((cause) => {
+    // The data is incomplete or of another version: show the error on the page and in the console.
+    one("#problem").textContent = `This report cannot be shown: ${cause.message}`;
+    one("#problem").hidden = false;
+    throw cause;
+  });
 
 function start(report) {
   const felt = feltLevels(report.felt);
