@@ -21,6 +21,17 @@ _MENDS: tuple[tuple[str, str], ...] = (
 """What stands at the place where a parser stops, after what (blanks removed), and what to do."""
 
 
+_MENDS_BY_MESSAGE = {
+    "Extra data": "the file goes on after its last bracket; remove the rest",
+    "Unterminated string": "this text has no closing quote",
+    "Invalid control character": "a text has no closing quote on its line, or holds a tab, which is written as \\t",
+    "Invalid \\": 'write each backslash twice, as "C:\\\\sounds"',
+    "Expecting ',' delimiter": "there is no comma before this place",
+    "Expecting ':' delimiter": "there is no colon before this place",
+}
+"""What to do, by the begin of the parser's own words."""
+
+
 def json_problem(error: json.JSONDecodeError) -> str:
     """Return the line and the mistake in a text that is no JSON, and what to do."""
     text, at = error.doc, error.pos
@@ -32,8 +43,5 @@ def json_problem(error: json.JSONDecodeError) -> str:
     here = text[:at].rstrip() + (rest := text[at:].lstrip())
     place = len(here) - len(rest)
     mend = next((mend for pattern, mend in _MENDS if re.compile(pattern).match(here, place)), "")
-    if not mend and error.msg == "Extra data":
-        mend = "the file goes on after its last bracket; remove the rest"
-    elif not mend and "delimiter" in error.msg:
-        mend = f"there is no {error.msg.split()[1]} before this place"
+    mend = mend or next((mend for words, mend in _MENDS_BY_MESSAGE.items() if error.msg.startswith(words)), "")
     return f"line {error.lineno}, column {error.colno}: {mend or error.msg}"
