@@ -238,7 +238,8 @@ ACCESS_DENIED, SHARING_VIOLATION, LOCK_VIOLATION = 5, 32, 33
 _TO_DO_ON_WINDOWS = {
     ACCESS_DENIED: "Close the program that has it or a file in it open, or remove its write protection.",
     **dict.fromkeys((SHARING_VIOLATION, LOCK_VIOLATION), "Close the program that has it open."),
-    123: 'Use no < > : " | ? * in a name.',  # ERROR_INVALID_NAME
+    # ERROR_INVALID_NAME, and ERROR_DIRECTORY of a folder
+    **dict.fromkeys((123, 267), 'Use no < > : " | ? * in a name, and no name of a device, as con, aux or nul.'),
     206: "Give a shorter path.",  # ERROR_FILENAME_EXCED_RANGE
 }
 

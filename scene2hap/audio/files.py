@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.audio.clip import AudioClip, Credit, Samples
 from scene2hap.common import checks
-from scene2hap.common.text_files import draft_of, is_there, path_in_c
+from scene2hap.common.text_files import LFS_ADVICE, draft_of, is_lfs_pointer, is_there, path_in_c
 from scene2hap.errors import AudioError, reason_of, unwritable
 
 PcmSubtype = Literal["PCM_16", "PCM_24", "PCM_32"]
@@ -172,6 +172,8 @@ def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
     except OSError as cause:
         raise AudioError(f"{path} cannot be read ({cause.strerror}). Choose a file that is yours.") from cause
     except (soundfile.SoundFileError, TypeError) as cause:  # TypeError: a headerless file, for which a rate is needed
+        if is_lfs_pointer(path):
+            raise AudioError(f"{path} {LFS_ADVICE}.") from cause
         raise AudioError(f"{path}: not a readable sound ({reason_of(cause)}). Use {READABLE}.") from cause
 
 

@@ -87,9 +87,11 @@ async def infer_corrected(
     only: Collection[str] | None = None,
     scene_category: str | None = None,
     limit: ConcurrencyLimit | None = None,
+    before: Mapping[str, ObjectHaptics] | None = None,
 ) -> Inference:
     """Infer a scene with the names and vibration of the overrides. See `infer_scene`.
 
+    `before` : earlier answers, which stay where nothing is known of the name that a person gave.
     An error that stops it has a note on the answers that the cache keeps (`__notes__`), since the same bake continues.
     Warns: BundleWarning: a name that a person gave is unknown.
     """
@@ -118,20 +120,28 @@ async def infer_corrected(
             )
         raise
     objects = {
-        key: _note_name(key, haptics, names[key]) if key in names else haptics
+        key: _named(key, haptics, names[key], (before or {}).get(key)) if key in names else haptics
         for key, haptics in inference.objects.items()
     }
     return replace(inference, objects=objects)
 
 
-def _note_name(object_id: str, haptics: ObjectHaptics, name: str) -> ObjectHaptics:
-    """Note the name that a person gave an object, by which it was inferred. Warns: BundleWarning: it is unknown."""
+def _named(object_id: str, haptics: ObjectHaptics, name: str, before: ObjectHaptics | None) -> ObjectHaptics:
+    """Return the answer for the name that a person gave an object, with a note of it.
+
+    A name of which nothing is known does not replace an earlier answer: the object would fall silent.
+    Warns: BundleWarning: nothing is known of the name.
+    """
     if is_unknown(haptics.object_category):
+        is_kept = before is not None and not is_unknown(before.object_category)
+        effect = "the object stays as it was" if is_kept else "no material and no vibration are inferred"
         warn_of(
-            f"nothing is known of {checks.shown(name)}, the name that a person gave {object_id!r}; no material and no "
-            "vibration are inferred. Use a common noun, as 'washing machine', or infer it by a model (llm).",
+            f"nothing is known of {checks.shown(name)}, the name that a person gave {object_id!r}; {effect}. Use a "
+            "common noun, as 'washing machine', or infer it by a model (llm).",
             BundleWarning,
         )
+        if before is not None and is_kept:
+            return before
     return replace(haptics, reasons={**haptics.reasons, "name": reason_of_name(name)})
 
 

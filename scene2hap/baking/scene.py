@@ -31,6 +31,7 @@ from scene2hap.baking.recorded_times import with_recorded_times
 from scene2hap.baking.sound import EarlierLoops, Progress, Remade, Sounds, make_loops
 from scene2hap.bundle import HapticBundle, MadeWith, Override
 from scene2hap.bundle.arguments import given_bundle
+from scene2hap.bundle.override import NONE, answers_before
 from scene2hap.bundle.pending_corrections import objects_without_states, renamed_objects
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
@@ -119,7 +120,7 @@ async def bake_inferred(
     earlier: HapticBundle | None = None,
 ) -> HapticBundle:
     """Make the loops of an inferred scene. Returns its bundle, as `bake` after inference. Raises: AudioError."""
-    locked = EarlierLoops()
+    locked, answers = EarlierLoops(), inferred
     if earlier is not None:
         loops = {key: loops for key, loops in earlier.loops.items() if key in overrides and overrides[key].locked}
         locked = EarlierLoops(loops, earlier.choices)
@@ -128,7 +129,10 @@ async def bake_inferred(
     objects, sounds = await _make_loops(inferred, overrides, config, progress, locked, {})
     warn_of_scene(scene, objects)
     warn_of_vain_corrections(objects, overrides)
-    return HapticBundle(scene, scene_category, objects, sounds.loops, overrides, sounds.choices, _made_with(config))
+    before = answers_before(with_recorded_times(answers, sounds.loops, {}), overrides, {})
+    return HapticBundle(
+        scene, scene_category, objects, sounds.loops, overrides, sounds.choices, _made_with(config), before
+    )
 
 
 async def _make_loops(
@@ -232,6 +236,8 @@ async def arebake(
     _require_callable(progress=progress, on_report=on_report, on_remade=on_remade)
     config = BakeConfig.parse(config)
     given, config = config.model_fields_set, _settings_of(bundle, config)
+    for key in [key for key in bundle.inferred if bundle.overrides.get(key, NONE) == NONE]:
+        bundle = bundle.reset(key)  # its row was removed from the file
     if isinstance(objects, str):
         raise ConfigError(f"objects is the text {objects!r}; give a list of ids, [{objects!r}].")
     whole = [*checks.items("objects", objects, error=ConfigError), *renamed_objects(bundle)]
@@ -245,12 +251,16 @@ async def arebake(
         progress=progress,
         only=again,
         scene_category=bundle.scene_category,
+        before=bundle.objects,
     )
     if on_report is not None:
         on_report(inference.report)
     inferred = dict(bundle.objects)
     for key, haptics in inference.objects.items():
         inferred[key] = haptics if key in whole else replace_vibration(bundle.objects[key], haptics)
+    answers = {key: haptics for key, haptics in inference.objects.items() if key in whole}
+    before = answers_before(bundle.objects, bundle.overrides, bundle.inferred)
+    before |= answers_before(answers, bundle.overrides, {})
     earlier = EarlierLoops(
         bundle.loops,
         bundle.choices,
@@ -264,7 +274,9 @@ async def arebake(
     warn_of_weak_loops(sounds, bundle.overrides)
     made_with = _made_with(config) if all_have_fingerprints(sounds.loops) else None
     warn_of_vain_corrections(baked, bundle.overrides, bundle.objects)
-    return replace(bundle, objects=baked, loops=sounds.loops, choices=sounds.choices, made_with=made_with)
+    return replace(
+        bundle, objects=baked, loops=sounds.loops, choices=sounds.choices, made_with=made_with, inferred=before
+    )
 
 
 def _require_callable(**callbacks: object) -> None:

@@ -17,7 +17,7 @@ import numpy as np
 
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.felt_loop import Plan, SourceClip, felt_loop, plan_scene
-from scene2hap.audio.files import as_stored
+from scene2hap.audio.files import as_stored, sound_digest
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.loops import middle_of
 from scene2hap.audio.recorded_runs import recorded_runs
@@ -25,16 +25,20 @@ from scene2hap.audio.select import Choice, explain_choice
 from scene2hap.audio.sources.chain import gather
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import (
+    LOOP,
     OWN_CLIP,
     actuator_digest,
     converter_name,
     differences,
+    is_edited,
     made_by,
     request_digests,
 )
 from scene2hap.baking.recorded_times import NO_RUNS, Runs, runs_of, shown_runs
 from scene2hap.bundle import BundleWarning, Override
+from scene2hap.bundle.pending_corrections import CORRECTIONS, corrections_digest
 from scene2hap.common.blas_threads import one_blas_thread
+from scene2hap.common.counted import first_of
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import AudioError
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics, SourceState, VibrationDescription
@@ -119,7 +123,9 @@ async def make_loops(
     parts = []
     for done, (object_id, haptics, state) in enumerate(wanted, start=1):
         part, why = await asyncio.to_thread(chooser.part, object_id, haptics, state)
-        parts.append(replace(part, pitch_hz=_pitch_hz(object_id, state.name, overrides, config)))
+        request = {**part.request, CORRECTIONS: corrections_digest(overrides.get(object_id, Override()), state.name)}
+        pitch_hz = _pitch_hz(object_id, state.name, overrides, config)
+        parts.append(replace(part, request=request, pitch_hz=pitch_hz))
         if why:
             sounds.choices.setdefault(object_id, {})[state.name] = why
         tell("sound", object_id, done, len(wanted))
@@ -130,6 +136,7 @@ async def make_loops(
     with one_blas_thread:
         plans = await asyncio.to_thread(plan_scene, sources, config.tactile, config.actuator, config.spread, standing)
         made = await _made(parts, plans, config, tell)
+    _warn_of_lost_edits(parts, [reasons for _, reasons in made])
     if any({"actuator", *_NEW}.intersection(reasons) for _, reasons in made):
         _warn_of_other_actuator(parts, config.actuator)
     loops: dict[str, dict[str, HapticLoop]] = {}
@@ -156,6 +163,21 @@ def _warn_of_other_actuator(parts: Sequence[_Part], actuator: ActuatorProfile) -
         warn_of(
             f"locked loops are kept, which were made for another actuator than {actuator.name!r}: {named}. "
             "They may be felt too strongly or too weakly. Unlock these objects, or use the earlier actuator.",
+            BundleWarning,
+        )
+
+
+def _warn_of_lost_edits(parts: Sequence[_Part], remade: Sequence[tuple[str, ...]]) -> None:
+    """Warn of loops that were edited by hand, and are made again. Warns: BundleWarning."""
+    lost = dict.fromkeys(
+        part.object_id
+        for part, reasons in zip(parts, remade, strict=True)
+        if reasons and part.earlier is not None and is_edited(part.earlier)
+    )
+    if lost:
+        warn_of(
+            f"tactile loops that were edited by hand are made again, and the edits are lost: {first_of([*lost], 5)}. "
+            "`scene2hap edit BUNDLE undo` restores them. To keep such a loop, lock its object before.",
             BundleWarning,
         )
 
@@ -290,6 +312,8 @@ class _Maker:
         fingerprint = {**part.request, **self._names[key]}
         reasons = differences(part.earlier.fingerprint, fingerprint) if part.earlier is not None else _NEW
         if part.earlier is not None and not reasons:
+            # The loop itself may have been edited by hand, and stays.
+            fingerprint = {**fingerprint, LOOP: part.earlier.fingerprint.get(LOOP, "")}
             unchanged = dict(part.earlier.fingerprint) == fingerprint and runs_of(part.earlier) == part.runs
             return part.earlier if unchanged else _as_of(part, part.earlier, fingerprint), _UNCHANGED
         if key not in self._made:
@@ -301,6 +325,7 @@ class _Maker:
             self._made[key] = replace(made, audible=as_stored(made.audible), tactile=as_stored(made.tactile))
         # A person's own clip is stored with the override. Without that override, another sound must be chosen.
         source = None if part.request["words"] == OWN_CLIP else clip
+        fingerprint = {**fingerprint, LOOP: sound_digest(self._made[key].tactile)}
         return replace(_as_of(part, self._made[key], fingerprint), source=source), reasons
 
 

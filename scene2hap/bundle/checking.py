@@ -7,8 +7,11 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from scene2hap.audio.clip import Samples
 from scene2hap.bundle.contents import BundleContents
-from scene2hap.bundle.override import ANY_STATE, BY_STATE, Override
+from scene2hap.bundle.override import ANY_STATE, BY_STATE, NONE, Override
 from scene2hap.common.checks import did_you_mean, shown
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import BundleError
@@ -42,7 +45,8 @@ def require_plausible(bundle: BundleContents, folder: Path) -> None:
 
     Raises: BundleError: a size that this object's plate cannot have.
     Warns: BundleWarning: an object that does not vibrate has loops; a state needs a contact that no object in the scene
-    can provide; a correction of a state that its object does not have.
+    can provide; a tactile loop that is silent, too loud or with ends that do not meet; a correction of a state that its
+    object does not have.
     """
     objects, scene = bundle.objects, bundle.snapshot
     categories = {item.id: "" for item in scene.objects} | {key: said.object_category for key, said in objects.items()}
@@ -61,8 +65,44 @@ def require_plausible(bundle: BundleContents, folder: Path) -> None:
             )
         for doubt in unmet_needs(object_id, haptics.states, categories):
             warn_of(f"{object_id!r}: {doubt}.", BundleWarning)
+    warn_of_edited_loops(bundle, folder)
     for doubt in vain_corrections(objects, bundle.overrides):
         warn_of(f"{folder / 'overrides.json'}: {doubt}", BundleWarning)
+
+
+def warn_of_edited_loops(bundle: BundleContents, folder: Path) -> None:
+    """Warn of tactile loops that an audio editor has left silent, too loud, or with ends that do not meet.
+
+    Haptic clips that a person drew are left out: they are played as they are. Warns: BundleWarning.
+    """
+    for object_id, states in bundle.loops.items():
+        clip = bundle.overrides.get(object_id, NONE).clip
+        for state, loop in states.items():
+            doubt = "" if clip is not None and clip.is_vibration else _loop_doubt(loop.tactile.samples)
+            if doubt:
+                warn_of(f"{folder}: the tactile loop of {object_id!r}, state {state!r}, {doubt}", BundleWarning)
+
+
+def _loop_doubt(samples: Samples) -> str:
+    """Return the end of a sentence on what is wrong with a loop; empty if nothing is."""
+    peak = float(np.abs(samples).max())
+    if peak == 0.0:
+        return "is silent. To silence an object: `scene2hap edit BUNDLE mute ID`, or silence."
+    if peak > 1.0:
+        over_db = 20 * np.log10(peak)
+        return f"peaks {over_db:.1f} dB over full scale; no edit can save it. Lower it in your audio editor."
+    jump = float(abs(samples[0] - samples[-1]))
+    if jump > max(_LEAST_JUMP, _USUAL_STEPS * float(np.abs(np.diff(samples)).max(initial=0.0))):
+        return (
+            f"jumps by {jump:.2g} of full scale where it is repeated, since its end does not meet its beginning; this "
+            "is felt as a click. Cross-fade its ends in your audio editor, or let scene2hap find a seam: `scene2hap "
+            "edit BUNDLE sound ID FILE`."
+        )
+    return ""
+
+
+_LEAST_JUMP, _USUAL_STEPS = 0.01, 2.0
+"""A jump is felt if it is above -40 dB re full scale, and above twice the largest step elsewhere; assumed."""
 
 
 def vain_corrections(objects: Mapping[str, ObjectHaptics], overrides: Mapping[str, Override]) -> list[str]:

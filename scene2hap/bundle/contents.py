@@ -27,17 +27,18 @@ class BundleContents:
     overrides: Mapping[str, Override] = field(default_factory=dict)
     choices: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     made_with: MadeWith | None = None
+    inferred: Mapping[str, ObjectHaptics] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if not isinstance(self.snapshot, SceneSnapshot):
             raise BundleError(f"snapshot is {checks.described(self.snapshot)}; it must be a SceneSnapshot.")
-        for name in ("objects", "loops", "overrides", "choices"):
+        for name in ("objects", "loops", "overrides", "choices", "inferred"):
             if not isinstance(getattr(self, name), Mapping):
                 raise BundleError(f"{name} is {checks.described(getattr(self, name))}; it must be a mapping by id.")
         loops = {key: by_name(states, "state", f"of {key!r}") for key, states in self.loops.items()}
         object.__setattr__(self, "objects", by_name(self.objects, "object"))
         object.__setattr__(self, "loops", ByName(loops, "source"))
-        for object_id in (*self.objects, *self.loops, *self.overrides):
+        for object_id in (*self.objects, *self.loops, *self.overrides, *self.inferred):
             self.snapshot.object(object_id)
 
     @property

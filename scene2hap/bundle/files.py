@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.common.printable import parse_json
+from scene2hap.common.text_files import LFS_ADVICE, is_lfs_pointer
 from scene2hap.errors import BundleError, BundleIncomplete, reason_of
 
 MAX_FILE_BYTES = 1 << 28
@@ -19,7 +20,9 @@ def read_json(folder: Path, name: str) -> dict[str, Any]:
     try:
         document = parse_json(data.decode("utf-8-sig"))  # Windows editors add a byte-order mark
     except (ValueError, RecursionError) as cause:  # ValueError: not UTF-8, not JSON, or a number of thousands of digits
-        raise BundleIncomplete(f"{folder / name} cannot be read: {cause}. Bake again, or mend the file.") from cause
+        raise BundleIncomplete(
+            f"{folder / name} cannot be read: {reason_of(cause)}. Mend the file, or bake again."
+        ) from cause
     if not isinstance(document, dict):
         raise BundleError(f"{folder / name} must hold a JSON object.")
     return document
@@ -32,9 +35,12 @@ def read_bytes(folder: Path, name: str) -> bytes:
         size = path.stat().st_size
         if size > MAX_FILE_BYTES:
             raise BundleError(f"{path} has {size} bytes; it must be at most {MAX_FILE_BYTES}. Bake again.")
-        return path.read_bytes()
+        is_pointer, content = is_lfs_pointer(path), path.read_bytes()
     except OSError as cause:
         raise BundleIncomplete(f"{path} cannot be read: {cause.strerror}. Bake again, or mend the file.") from cause
+    if is_pointer:
+        raise BundleIncomplete(f"{path} {LFS_ADVICE}.")
+    return content
 
 
 def own_file(folder: Path, name: object) -> Path:

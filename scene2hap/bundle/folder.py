@@ -4,6 +4,7 @@ bundle.json     format, version, kind of place, settings of all loops, files; wr
                 incomplete
 scene.json      the snapshot; geometry by reference to meshes/
 objects.json    ObjectHaptics of each object by id
+inferred.json   ObjectHaptics of corrected objects, before the corrections; missing without any
 loops.json      sounds, frequencies, credit and fingerprint of each source and state
 overrides.json  a person's overrides, by id
 credits.txt     credits of the sounds
@@ -137,6 +138,8 @@ def _write(bundle: BundleContents, folder: Path, like: Path | None = None) -> No
                 put_bytes(name, encode_ply(item.geometry))
     put("scene.json", {"format": scene_json.FORMAT, "version": scene_json.VERSION, **scene})
     put("objects.json", _objects.dump_python(dict(bundle.objects), mode="json"))
+    if bundle.inferred:
+        put("inferred.json", _objects.dump_python(dict(bundle.inferred), mode="json"))
     put("loops.json", write_loops(bundle, put_bytes))
     put("overrides.json", _override_rows(bundle, put_bytes))
     owed = dict.fromkeys(replace(who, query="") for who in bundle.credits)  # two queries may find one sound
@@ -197,11 +200,8 @@ def _read(folder: Path, overrides: Mapping[str, Override] | None) -> BundleConte
             raise BundleIncomplete(problem)
     with _reading(folder / "scene.json"):
         scene = _read_scene(folder)
-    with _reading(folder / "objects.json"):
-        answers = _with_named_materials(folder / "objects.json", read_json(folder, "objects.json"))
-        objects = _objects.validate_python(answers)
-        warn_of_unknown_fields(folder / "objects.json", answers)
-        _require_objects(objects, scene)
+    objects = _read_objects(folder, "objects.json", scene)
+    inferred = _read_objects(folder, "inferred.json", scene) if "inferred.json" in manifest.get("files", []) else {}
     with _reading(folder / "loops.json"):
         rows, sounds = read_json(folder, "loops.json"), SoundReader(folder)
         loops: dict[str, dict[str, HapticLoop]] = {}
@@ -226,7 +226,7 @@ def _read(folder: Path, overrides: Mapping[str, Override] | None) -> BundleConte
     with _reading(folder / MANIFEST):
         made_with = MadeWith.from_document(manifest.get("made_with"), str(folder / MANIFEST))
         category = str(manifest.get("scene_category", "undefined"))
-        return BundleContents(scene, category, objects, loops, overrides, choices, made_with)
+        return BundleContents(scene, category, objects, loops, overrides, choices, made_with, inferred)
 
 
 @contextmanager
@@ -266,6 +266,16 @@ def _read_scene(folder: Path) -> SceneSnapshot:
     names = {row.get("geometry") for row in document.get("objects", []) if isinstance(row.get("geometry"), str)}
     document["geometries"] = {name: decode_ply(read_bytes(folder, name)) for name in sorted(names)}
     return SceneSnapshot.of(scene_json.from_document(document))
+
+
+def _read_objects(folder: Path, name: str, scene: SceneSnapshot) -> dict[str, ObjectHaptics]:
+    path = folder / name
+    with _reading(path):
+        answers = _with_named_materials(path, read_json(folder, name))
+        objects = _objects.validate_python(answers)
+        warn_of_unknown_fields(path, answers)
+        _require_objects(objects, scene)
+    return objects
 
 
 def _override_rows(bundle: BundleContents, put: Callable[[str, bytes], None]) -> dict[str, Any]:

@@ -17,13 +17,13 @@ from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.corrections import read_corrections
 from scene2hap.bundle.folder import read_bundle, write_bundle
 from scene2hap.bundle.notebook import bundle_table
-from scene2hap.bundle.override import ANY_STATE, BY_STATE, MAKES_LOOPS, Override
+from scene2hap.bundle.override import ANY_STATE, BY_STATE, MAKES_LOOPS, NONE, USER, Override, answers_before
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
 from scene2hap.common.counted import counted
 from scene2hap.common.warning import warn_of
-from scene2hap.errors import AudioError, BundleError, MaterialError, SceneError
+from scene2hap.errors import AudioError, BundleError, CallError, MaterialError, SceneError
 from scene2hap.haptics import is_unknown
 from scene2hap.materials import Material
 from scene2hap.scene.plausibility.check import too_heavy
@@ -41,6 +41,13 @@ def _named(place: object) -> Iterator[None]:
         raise type(cause)(f"{checks.shown(place) if isinstance(place, str) else place}: {cause}") from cause
 
 
+def _locked(object_id: str, change: str) -> BundleError:
+    return BundleError(
+        f"{object_id!r} is locked, so that {change} cannot change its loops. Unlock it first: "
+        f"`override({object_id!r}, locked=False)`, or `scene2hap edit BUNDLE unlock {object_id}`."
+    )
+
+
 _OF_SOURCES = ("clip", "gain_db", "intensity", "pitch_hz", "start_up_s", "wind_down_s", "muted")
 """Corrections that only a vibrating object takes."""
 
@@ -51,7 +58,8 @@ class HapticBundle(BundleContents):
     """A baked scene: its objects, the inferred properties of each, and the loops of each source by state.
 
     `overrides` are a person's corrections. `choices` give the reason for each chosen sound, as a table of its
-    candidates in text, by id and state. `made_with` are the common settings of all loops, None if unknown.
+    candidates in text, by id and state. `made_with` are the common settings of all loops, None if unknown. `inferred`
+    has the objects that a person corrected, as they were before.
     Bundles are equal if all of their data are. A baked bundle equals the one that is loaded from its folder.
     """
 
@@ -132,7 +140,34 @@ class HapticBundle(BundleContents):
             warn_if_percent(wish.gain_db)
         if mass_kg is not None and (heavy := too_heavy(self.snapshot.object(object_id), mass_kg)):
             warn_of(heavy)
-        return replace(self, overrides={**self.overrides, object_id: wish}).with_overrides()
+        overrides = {**self.overrides, object_id: wish}
+        inferred = answers_before(self.objects, overrides, self.inferred)
+        return replace(self, overrides=overrides, inferred=inferred).with_overrides()
+
+    def reset(self, object_id: str) -> Self:
+        """Take back all corrections of one object, so that it is as inferred. Returns a new bundle.
+
+        What an edit of `objects.json` by hand changed in a corrected object is taken back, too. Loops follow with
+        `rebake(bundle)`. Raises: UnknownObject; BundleError: the object is locked, or the bundle does not know what
+        was inferred.
+        """
+        self.snapshot.object(object_id)
+        if self.overrides.get(object_id, NONE).locked:
+            raise _locked(object_id, "reset")
+        objects, loops = dict(self.objects), dict(self.loops)
+        overrides, inferred = dict(self.overrides), dict(self.inferred)
+        overrides.pop(object_id, None)
+        before = inferred.pop(object_id, objects.get(object_id))
+        if before is not None:
+            if USER in before.provenance.values() and "name" not in before.reasons:
+                raise BundleError(
+                    f"{object_id!r} was corrected by an earlier version, which did not keep what was inferred. Remove "
+                    "its row from overrides.json, and bake the scene again."
+                )
+            objects[object_id] = before
+            if not before.vibrates:
+                loops.pop(object_id, None)
+        return replace(self, objects=objects, loops=loops, overrides=overrides, inferred=inferred)
 
     def corrected(self, file: str | os.PathLike[str]) -> Self:
         """Apply the corrections in a file from a report page, in addition to earlier ones. Returns a new bundle.
@@ -164,10 +199,7 @@ class HapticBundle(BundleContents):
     def _require_unlocked(self, object_id: str, wish: Override, changes: Mapping[str, Any]) -> None:
         changed = sorted(name for name in MAKES_LOOPS if changes[name] is not None)
         if changed and wish.locked and changes["locked"] is not False and object_id in self.loops:
-            raise BundleError(
-                f"{object_id!r} is locked, so that {changed[0]} cannot change its loops. Unlock it first: "
-                f"`override({object_id!r}, locked=False)`, or `scene2hap edit BUNDLE unlock {object_id}`."
-            )
+            raise _locked(object_id, changed[0])
 
     def _require_states(self, object_id: str, states: Sequence[str]) -> None:
         haptics = self.objects.get(object_id)
@@ -218,6 +250,12 @@ class HapticBundle(BundleContents):
         if up_to_m is not None:
             up_to_m = checks.number("up_to_m", up_to_m, "m", error=BundleError)
         return plot_bundle(self, sources, up_to_m, figure)
+
+    def __hash__(self) -> int:
+        raise CallError(
+            "a HapticBundle is no key of a dictionary and no item of a set, since its parts are mappings. Use the path "
+            "of its folder, or bundle.snapshot."
+        )
 
     def __repr__(self) -> str:
         n_sources = sum(map(bool, self.loops.values()))

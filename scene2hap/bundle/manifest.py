@@ -16,7 +16,7 @@ VERSION = 1
 MANIFEST = "bundle.json"
 
 _OURS = re.compile(
-    r"(meshes/[^/\\]+\.ply|sounds/[^/\\]+\.(wav|flac)|(scene|objects|loops|overrides)\.json|credits\.txt)"
+    r"(meshes/[^/\\]+\.ply|sounds/[^/\\]+\.(wav|flac)|(scene|objects|inferred|loops|overrides)\.json|credits\.txt)"
 )
 
 

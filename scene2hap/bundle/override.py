@@ -133,7 +133,7 @@ class Override:
     def corrections(self) -> dict[str, Any]:
         """Return the fields that correct something, by name."""
         given = {one.name: getattr(self, one.name) for one in fields(self)}
-        return {name: value for name, value in given.items() if value != getattr(Override(), name)}
+        return {name: value for name, value in given.items() if value != getattr(NONE, name)}
 
     def pitch_of(self, state: str) -> float | None:
         """Return the corrected frequency of a state's vibration [Hz], None if it is not overridden."""
@@ -187,3 +187,21 @@ def _by_state(name: str, value: object) -> dict[str, float]:
 
 def _on_top(earlier: Mapping[str, float], later: Mapping[str, float]) -> Mapping[str, float]:
     return later if ANY_STATE in later else {**earlier, **later}
+
+
+NONE = Override()
+"""No correction."""
+
+
+def answers_before(
+    objects: Mapping[str, ObjectHaptics], overrides: Mapping[str, Override], known: Mapping[str, ObjectHaptics]
+) -> dict[str, ObjectHaptics]:
+    """Return what was inferred of each object that a person corrects. An object that was corrected before has its
+    known answer, or none if it is unknown."""
+    answers = {}
+    for key, wish in overrides.items():
+        haptics = known.get(key, objects.get(key))
+        is_corrected = haptics is None or USER in haptics.provenance.values() or "name" in haptics.reasons
+        if haptics is not None and wish != NONE and not is_corrected:
+            answers[key] = haptics
+    return answers

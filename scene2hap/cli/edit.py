@@ -18,6 +18,7 @@ scene2hap edit kitchen.bundle name Cube.013 "espresso machine" --llm openai:gpt-
 scene2hap edit kitchen.bundle silence hood
 scene2hap edit kitchen.bundle vibrate kettle
 scene2hap edit kitchen.bundle lock fan
+scene2hap edit kitchen.bundle reset fan
 scene2hap edit kitchen.bundle apply corrections.json
 scene2hap edit kitchen.bundle rebake --actuator lra
 scene2hap edit kitchen.bundle undo
@@ -148,6 +149,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         verb(name, text, _overridden).set_defaults(**changes)
     vibrate = verb("vibrate", "mark an object as vibrating, and make its loops", _remade)
     vibrate.set_defaults(vibrates=True)
+    reset = verb("reset", "take back all corrections of an object, and make its loops again", _reset)
     verb("undo", f"take back the last edit or bake, up to {MOST_STEPS} in a row", _undone, of_object=False)
     verb("redo", "restore what the last undo took back", _undone, of_object=False)
     diff = verb("diff", "show the differences to another bundle; changes nothing", None, of_object=False)
@@ -156,7 +158,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     apply.add_argument("file", metavar="FILE", help="the file of corrections")
     again = verb("rebake", "make every loop again whose inputs have changed", _rebaked, of_object=False)
     add_loop_arguments(again)
-    for added in (called, vibrate, apply, again):
+    for added in (called, vibrate, reset, apply, again):
         add_backend_arguments(added)
     for added in verbs.choices.values():  # accept the options before and after the verb
         added.add_argument("-q", "--quiet", action="store_true", default=argparse.SUPPRESS)
@@ -300,6 +302,10 @@ def _overridden(bundle: HapticBundle, remaking: Rebake) -> HapticBundle:
 
 def _remade(bundle: HapticBundle, remaking: Rebake) -> HapticBundle:
     return remaking.rebake(_overridden(bundle, remaking))
+
+
+def _reset(bundle: HapticBundle, remaking: Rebake) -> HapticBundle:
+    return remaking.rebake(bundle.reset(remaking.arguments.id))
 
 
 def _corrected(bundle: HapticBundle, remaking: Rebake) -> HapticBundle:

@@ -204,7 +204,7 @@ def floats(name: str, value: object, unit: str, *, error: type[Scene2HapError]) 
         return value
     try:
         found = np.asanyarray(value)
-        if found.dtype.kind not in "biufO":
+        if found.dtype.kind not in "iufO":
             raise TypeError(f"{found.dtype} is no type of real numbers")
         if isinstance(found, np.ma.MaskedArray) and np.ma.is_masked(found):
             raise TypeError("some of them are masked")

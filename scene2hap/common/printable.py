@@ -8,6 +8,8 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
+from scene2hap.common.json_problem import json_problem
+
 # Control characters (including C1 escapes, which can clear a terminal or set its title), line and paragraph separators,
 # marks that change the direction of writing, and unpaired surrogates, which no encoding can write.
 _UNSAFE = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
@@ -63,7 +65,10 @@ def writable(text: str) -> str:
 
 def parse_json(text: str | bytes) -> Any:
     """Parse a JSON text. Raises: ValueError: it is none, or an object has a key twice; RecursionError."""
-    return json.loads(text, object_pairs_hook=_each_key_once)
+    try:
+        return json.loads(text, object_pairs_hook=_each_key_once)
+    except json.JSONDecodeError as cause:
+        raise ValueError(json_problem(cause)) from cause
 
 
 def _each_key_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

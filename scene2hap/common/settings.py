@@ -7,9 +7,10 @@ import re
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from types import NoneType
+from typing import Any, ClassVar, Self, get_args
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes
@@ -54,6 +55,15 @@ class Settings(BaseModel):
                 "makes others."
             ) from cause
 
+    @field_validator("*", mode="before")
+    @classmethod
+    def _no_flag_for_a_number(cls, value: Any, info: ValidationInfo) -> Any:
+        """Refuse True and False for a number: pydantic takes them for 1 and 0."""
+        field = cls.model_fields[str(info.field_name)]
+        if _holds_only_numbers(field.annotation) and _has_flag(value):
+            raise ValueError("it must be a number, neither True nor False")
+        return value
+
     @classmethod
     def parse(cls, settings: Self | Mapping[str, Any] | str | os.PathLike[str] | None, **changes: Any) -> Self:
         """Return a configuration from settings or defaults, overridden by `changes`; changes of None are ignored.
@@ -91,6 +101,17 @@ class Settings(BaseModel):
         got = "" if problem.kind == "value_error" and value in problem.reason else f", got {value}"
         said = f"{cls.of_what} setting {problem.place}: {problem.reason}{got}"
         return said if said.endswith("?") else f"{said}."
+
+
+def _holds_only_numbers(annotation: object) -> bool:
+    """Return True if all values of a type are numbers, or None: float, int | None, tuple[tuple[float, float], ...]."""
+    parts = [part for part in get_args(annotation) if part not in (Ellipsis, NoneType)]
+    return all(map(_holds_only_numbers, parts)) if parts else annotation in (float, int)
+
+
+def _has_flag(value: object) -> bool:
+    """Return True if a value is a bool, also of NumPy, or a list that holds one."""
+    return any(map(_has_flag, value)) if isinstance(value, list | tuple) else type(value).__name__ in ("bool", "bool_")
 
 
 _SUFFIXES = (".json", ".toml")

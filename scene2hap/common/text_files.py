@@ -18,6 +18,9 @@ from scene2hap.common.renaming import replace
 MAX_BYTES = 1 << 24
 """Most bytes of one file; assumed: a hundred times the largest handwritten one, and parsed in seconds."""
 
+LFS_ADVICE = "is a pointer of Git LFS in place of the file; run `git lfs pull` in its repository"
+
+_LFS_POINTER = b"version https://git-lfs"
 _LONGEST_NAME = 255
 """Most bytes of a file name, on all usual systems."""
 
@@ -75,6 +78,12 @@ def opened_regular(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
 def read_small_text(path: str | os.PathLike[str]) -> str:
     """Read a regular file as UTF-8 text, with or without a byte-order mark. Raises: OSError, ValueError."""
     return read_small(path).decode("utf-8-sig")
+
+
+def is_lfs_pointer(path: Path) -> bool:
+    """Return True if a file is the text that a clone without Git LFS has in place of a large file. Raises: OSError."""
+    with path.open("rb") as file:
+        return file.read(len(_LFS_POINTER)) == _LFS_POINTER
 
 
 def draft_path(path: Path) -> Path:

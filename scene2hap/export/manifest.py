@@ -7,16 +7,21 @@ from __future__ import annotations
 
 from typing import Any, ClassVar, Literal
 
+import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.export.contact_gains import PathEntry, contact_paths
 from scene2hap.export.report import ExportReport
 from scene2hap.propagation.protocol import PropagationModel
+from scene2hap.render.transition import TransitionCurve
 
 FORMAT: Literal["scene2hap/export"] = "scene2hap/export"
 VERSION: Literal[1] = 1
 NAME = "manifest.json"
+
+_POINTS = 33
+"""Points of a start or stop that is not recorded: lines between them are within 0.002 of the curves [-]."""
 
 Triple = tuple[float, float, float]
 
@@ -35,6 +40,13 @@ class FileEntry(_Part):
     files: tuple[str, ...]
 
 
+class PassageEntry(_Part):
+    """The course of a start or a stop, at equal steps of its time; linear between them."""
+
+    amplitude: tuple[float, ...] = Field(description="of the vibration, relative to steady running [-]")
+    speed: tuple[float, ...] = Field(description="at which the loop is played, relative to steady running [-]")
+
+
 class StateEntry(_Part):
     """One state in which a source vibrates, with its loop."""
 
@@ -46,6 +58,9 @@ class StateEntry(_Part):
     level_db: float | None = Field(description="over the threshold of touch, on the actuator [dB]")
     start_up_s: float
     wind_down_s: float
+    spins: bool = Field(default=False, description="its pitch rises and falls, like that of a motor")
+    start_up: PassageEntry | None = Field(default=None, description="its start over start_up_s; null: at once")
+    wind_down: PassageEntry | None = Field(default=None, description="its stop over wind_down_s; null: at once")
     on_s: float | None = Field(default=None, description="it runs so long, in turns with off_s [s]; null: always")
     off_s: float | None = Field(default=None, description="it rests so long [s]")
     credit: dict[str, str]
@@ -146,11 +161,24 @@ def _state(bundle: HapticBundle, source: str, name: str, files: tuple[FileEntry,
         level_db=loop.felt.level_db if loop.felt is not None else None,
         start_up_s=inferred.start_up_s,
         wind_down_s=inferred.wind_down_s,
+        spins=inferred.spins,
+        start_up=_passage(TransitionCurve(True, inferred.spins, loop.start_up), inferred.start_up_s),
+        wind_down=_passage(TransitionCurve(False, inferred.spins, loop.wind_down), inferred.wind_down_s),
         on_s=inferred.on_s,
         off_s=inferred.off_s,
         credit=vars(loop.audible.credit),
         files=files,
     )
+
+
+def _passage(course: TransitionCurve, lasts_s: float) -> PassageEntry | None:
+    """Return a start or a stop as a session plays it, None if it takes no time."""
+    if lasts_s == 0.0:
+        return None
+    n = _POINTS if course.curve is None else len(course.curve.amplitude)
+    shares = np.linspace(0.0, 1.0, n)
+    amplitude, speed = (np.round(curve(shares), 5).tolist() for curve in (course.amplitude, course.speed))
+    return PassageEntry(amplitude=tuple(amplitude), speed=tuple(speed))
 
 
 def _object(bundle: HapticBundle, item: Any) -> ObjectEntry:

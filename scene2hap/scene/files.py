@@ -10,12 +10,11 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 from scene2hap.common import checks
-from scene2hap.common.text_files import is_there
+from scene2hap.common.text_files import LFS_ADVICE, is_lfs_pointer, is_there
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 
 HABITAT_SUFFIX = ".scene_instance.json"
-_POINTER = b"version https://git-lfs"
 
 
 def is_habitat(path: Path) -> bool:
@@ -119,8 +118,7 @@ def check_file(path: Path) -> None:
             raise SceneError(f"{str(path)!r} is not a file; give the path of the scene file itself, not its folder.")
         limits.at_most(f"the size of {path.name!r} in bytes", path.stat().st_size, "MAX_FILE_BYTES")
         is_empty = path.stat().st_size == 0
-        with path.open("rb") as file:
-            is_pointer = file.read(len(_POINTER)) == _POINTER
+        is_pointer = is_lfs_pointer(path)
     except SceneError:
         raise
     # ValueError: the name contains a zero byte.
@@ -129,6 +127,4 @@ def check_file(path: Path) -> None:
     if is_empty:
         raise SceneFormatError(f"{path.name!r} is empty (0 bytes). Export it again.")
     if is_pointer:
-        raise SceneFormatError(
-            f"{path.name!r} is a pointer of Git LFS in place of the file; run `git lfs pull` in its repository."
-        )
+        raise SceneFormatError(f"{path.name!r} {LFS_ADVICE}.")

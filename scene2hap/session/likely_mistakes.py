@@ -19,7 +19,12 @@ import numpy as np
 
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
-from scene2hap.bundle.pending_corrections import objects_without_states, renamed_objects
+from scene2hap.bundle.pending_corrections import (
+    objects_with_other_loops,
+    objects_without_loops,
+    objects_without_states,
+    renamed_objects,
+)
 from scene2hap.common.counted import counted, first_of
 from scene2hap.common.warning import warn_of
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics
@@ -235,7 +240,8 @@ def warn_if_not_baked(scene: SceneSnapshot, bundle: HapticBundle) -> None:
 def warn_of_pending_corrections(bundle: HapticBundle) -> None:
     """Warn of corrections that nobody feels before the next `rebake`. Warns: SceneWarning."""
     pending = [(key, "name") for key in renamed_objects(bundle)]
-    pending += [(key, "vibrates") for key in objects_without_states(bundle)]
+    pending += [(key, "vibrates") for key in [*objects_without_states(bundle), *objects_without_loops(bundle)]]
+    pending += [(key, "sound, intensity or pitch") for key in objects_with_other_loops(bundle)]
     if pending:
         named = first_of([f"{field} of {key!r}" for key, field in pending], MOST_NAMED)
         warn_of(

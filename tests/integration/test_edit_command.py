@@ -572,3 +572,21 @@ def test_a_bake_keeps_a_bundle_that_cannot_be_read(fan: Path, tmp_path: Path) ->
     assert main(["bake", room(tmp_path, "fan"), "-o", str(fan), "-q"]) == 0
     assert HapticBundle.load(fan).objects["fan"].vibrates
     assert (fan.with_name("kitchen.bundle.before") / "objects.json").read_bytes() == answers
+
+
+def test_reset_takes_back_the_corrections_of_one_object(
+    kitchen: Callable[..., Path], capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = kitchen()
+    baked = HapticBundle.load(folder)
+    for words in (["silence", "fan"], ["material", "oak table", "steel"]):
+        assert main(["edit", str(folder), *words, "-q"]) == 0
+    capsys.readouterr()
+    assert main(["edit", str(folder), "reset", "fan"]) == 0
+    assert "fan, vibrates: no -> yes" in capsys.readouterr().out
+    found = HapticBundle.load(folder)
+    assert found.objects["fan"] == baked.objects["fan"]
+    assert found.loops == baked.loops
+    assert list(found.overrides) == ["oak table"]
+    assert main(["edit", str(folder), "undo", "-q"]) == 0
+    assert "fan" not in HapticBundle.load(folder).loops

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import gzip
 import hashlib
 import json
 import re
@@ -236,6 +237,35 @@ def test_page_fits_a_phone_without_horizontal_scrolling(theme: str, browser: Any
     assert opened.errors == []
 
 
+def test_paper_is_light_and_holds_the_whole_table(browser: Any, html: str, tmp_path: Path) -> None:
+    path = tmp_path / "report.html"
+    path.write_text(html, encoding="utf-8")
+    opened = Opened(browser, path.as_uri(), color_scheme="dark")
+    page = opened.page
+    opened.report("select('refrigerator')")
+    theme, colour = "document.documentElement.dataset.theme", "getComputedStyle(document.body).color"
+    assert page.evaluate(theme) == "dark"
+    on_screen = page.evaluate(colour)
+    page.set_viewport_size({"width": 1280, "height": 500})  # on the screen the table must be scrolled
+    hidden = "(box => box.scrollHeight - box.clientHeight)(document.querySelector('.table-box'))"
+    assert page.evaluate(hidden) > 10
+    page.emulate_media(media="print", color_scheme="dark")
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    assert page.evaluate(theme) == "light"
+    assert page.evaluate(colour) != on_screen
+    assert page.evaluate(hidden) <= 1
+    assert page.evaluate("document.querySelector('#view').getBoundingClientRect().width") <= 700
+    assert not page.locator("#toolbar").is_visible()
+    assert not page.locator("#save").is_visible()
+    panel, table = (page.locator(part).bounding_box() for part in ("#panel", "#tables"))
+    assert panel["y"] + panel["height"] <= table["y"] + 1
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+    assert page.evaluate(theme) == "dark"
+    assert page.evaluate("document.querySelector('#view').getAttribute('style')") == ""
+    assert opened.errors == []
+    opened.context.close()
+
+
 def test_touch_input_shows_level_and_path(browser: Any, html: str, tmp_path: Path) -> None:
     path = tmp_path / "report.html"
     path.write_text(html, encoding="utf-8")
@@ -314,9 +344,19 @@ def test_the_policy_names_the_script_and_the_style_of_the_page(html: str) -> Non
 
 def test_data_cannot_inject_markup() -> None:
     page = assemble({"scene": "</script><!--<script>\u2028"})
-    (data,) = re.findall(r'<script type="application/json" id="report">(.*?)</script>', page, re.S)
-    assert json.loads(data) == {"scene": "</script><!--<script>\u2028"}
-    assert "<" not in data
+    (data,) = re.findall(r'<script type="application/gzip" id="report">(.*?)</script>', page, re.S)
+    assert json.loads(gzip.decompress(base64.b64decode(data))) == {"scene": "</script><!--<script>\u2028"}
+    assert re.fullmatch("[A-Za-z0-9+/=]+", data)
+    assert page == assemble({"scene": "</script><!--<script>\u2028"})
+
+
+def test_data_that_are_cut_short_are_said_on_the_page(browser: Any, html: str, tmp_path: Path) -> None:
+    path = tmp_path / "report.html"
+    path.write_text(re.sub(r'(id="report">.{4000}).*?</script>', r"\1</script>", html, flags=re.S), encoding="utf-8")
+    page = browser.new_page()
+    page.goto(path.as_uri())
+    page.get_by_text("This report cannot be shown").wait_for(timeout=TIMEOUT_MS)
+    page.close()
 
 
 _WALLS = {

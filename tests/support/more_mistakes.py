@@ -84,7 +84,7 @@ MORE_TOPICS: dict[str, tuple[Mistake, ...]] = {
             "import shutil\nshutil.copytree('kitchen.bundle', 'bad.bundle', dirs_exist_ok=True)\n"
             "open('bad.bundle/objects.json', 'w').write('{')\nHapticBundle.load('bad.bundle')",
             "objects.json",
-            "Bake again",
+            "bake again",
         ),
         mistake("TouchTrack('touches.json')", "touches.json", "TouchTrack.load"),
         mistake("TouchTrack(duration_s=1.0)", "steps"),

@@ -9,6 +9,7 @@ import pytest
 from scene2hap import (
     ActuatorProfile,
     AudioClip,
+    BakeConfig,
     Bands,
     Contact,
     ConversionContext,
@@ -26,6 +27,7 @@ from scene2hap import (
     SourceState,
     Touch,
     TriMesh,
+    UserProfile,
     load_scene,
     plate_modes,
 )
@@ -91,6 +93,15 @@ REFUSED: dict[str, Callable[[], object]] = {
     "vertices of huge numbers": lambda: TriMesh([[10**400, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]),
     "dates as vertices": lambda: TriMesh(np.zeros((3, 3), "M8[s]"), [[0, 1, 2]]),
     "poses of huge numbers": lambda: PoseTable(["a"], [[10**400, 0, 0]], [[0, 0, 0, 1]]),
+    "flags as samples": lambda: AudioClip(np.array([True, False]), 48_000),
+    "flags as vertices": lambda: TriMesh(np.eye(3, dtype=bool), [[0, 1, 2]]),
+    "a flag as a level": lambda: UserProfile(gain_db=True),
+    "a flag of NumPy as a limit": lambda: UserProfile(max_amplitude=np.True_),
+    "a flag as the level of a hand": lambda: UserProfile(hands={"left": {"gain_db": False}}),
+    "a flag in a curve": lambda: UserProfile(curve_db=[(60, True), (70, 1)]),
+    "a flag as a time": lambda: SessionConfig(watchdog_s=True),
+    "a flag as a limit or none": lambda: SessionConfig.parse({"gain_limit_db": False}),
+    "a flag as a count": lambda: BakeConfig.parse({"concurrency": True}),
     "samples of texts": lambda: AudioClip(np.array(["a"]), 48_000),
     "masked samples": lambda: AudioClip(np.ma.masked_all(9), 48_000),
     "complex samples": lambda: AudioClip(np.array([1.0, 2.0j]), 48_000),
@@ -129,6 +140,11 @@ def test_hostile_number_is_refused_with_a_message(case: str) -> None:
     with pytest.raises(Scene2HapError) as caught:
         REFUSED[case]()
     assert 20 < len(str(caught.value)) < 2000
+
+
+def test_flags_stay_settings_where_they_are_meant() -> None:
+    assert SessionConfig(skip={"unreachable": False}).skip.unreachable is False
+    assert UserProfile(gain_db=1, curve_db=[(60, 1), (70, np.float32(2.5))]).curve_db == ((60.0, 1.0), (70.0, 2.5))
 
 
 def test_arrays_in_any_order_of_bytes_and_rows_are_taken() -> None:

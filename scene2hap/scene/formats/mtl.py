@@ -7,6 +7,7 @@ Source: Wavefront, MTL material format, Lightwave/Wavefront (1995): Kd, d, Tr, m
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
@@ -75,7 +76,7 @@ class MtlLibraries:
                     "Join them into one, or remove the statements."
                 )
             self._read.add(name)
-            uri = _uri(name)
+            uri = _uri(name, self.textures.folder)
             try:
                 path = inside(self.textures.assets_root, self.textures.folder, uri, "mtllib")
                 if path in self._paths:
@@ -99,7 +100,9 @@ class MtlLibraries:
         file, mapping = _texture(rows.get("map_kd", ""))
         if not file:
             return MtlMaterial(FaceMaterial((r, g, b, a), name=name))
-        texture = self.textures.from_file(_uri(file), f"material {name!r}", keeps_alpha="map_d" in rows)
+        texture = self.textures.from_file(
+            _uri(file, self.textures.folder), f"material {name!r}", keeps_alpha="map_d" in rows
+        )
         # Some exporters write black or no colour if there is a texture. Multiplying by it would hide the texture.
         if texture is not None and (r == g == b == 0.0 or "kd" not in rows):
             r = g = b = 1.0
@@ -160,5 +163,7 @@ def _numbers(text: str, n: int) -> tuple[float, ...] | None:
     return values if len(values) == n and np.isfinite(values).all() else None
 
 
-def _uri(name: str) -> str:
-    return quote(name.strip().strip('"').replace("\\", "/"))
+def _uri(name: str, folder: Path) -> str:
+    """Return the address of a file. Some exporters write names as addresses already: "wood%20oak.png"."""
+    plain = name.strip().strip('"').replace("\\", "/")
+    return plain if "%" in plain and not os.path.exists(folder / plain) else quote(plain)

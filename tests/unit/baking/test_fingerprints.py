@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import soundfile
 
 from scene2hap import AudioClip, BakeConfig, Credit, HapticBundle, SceneSnapshot, VibrationDescription, bake, rebake
 from scene2hap.audio.actuators import ACTUATORS
@@ -157,6 +158,24 @@ def test_an_edited_intensity_is_felt_after_baking_again(tmp_path: Path) -> None:
     assert level_db(again, "desk_fan") == pytest.approx(before_db - 17.0 * np.log10(2.0), abs=0.1)
     assert level_db(bundle, "desk_fan") > level_db(again, "desk_fan") + 3.0
     assert again.loops["desk_fan"][state["name"]].audible.credit.origin == "synth"
+
+
+def test_an_edit_of_a_loop_by_hand_is_kept_by_a_lock_and_else_lost_with_a_warning(tmp_path: Path) -> None:
+    folder = bake(ROOM).save(tmp_path / "b")
+    file = folder / "sounds" / "desk_fan.on.tactile.wav"
+    samples, rate = soundfile.read(file)
+    soundfile.write(file, samples / 2, rate, subtype="PCM_24")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        edited = HapticBundle.load(rebake(folder).save(folder))  # nothing has changed, so nothing is made again
+        assert edited.loops["desk_fan"]["on"].tactile.samples == pytest.approx(samples / 2, abs=2**-23)
+        locked = rebake(edited.override("desk_fan", locked=True), {"seed": 7})
+        assert locked.loops["desk_fan"] is edited.loops["desk_fan"]
+    with pytest.warns(BundleWarning, match="edited by hand are made again, and the edits are lost: desk_fan"):
+        again = rebake(edited.override("desk_fan", intensity=0.123))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        rebake(again.override("desk_fan", intensity=0.2))
 
 
 def asked_db(bundle: HapticBundle, object_id: str) -> float:

@@ -112,6 +112,17 @@ def test_a_name_of_which_nothing_is_known_brings_a_warning(tmp_path: Path) -> No
         bake(scene, overrides=named.overrides)
 
 
+def test_a_name_of_which_nothing_is_known_does_not_silence_an_object() -> None:
+    scene = SceneSnapshot.build([SceneObject("fan", geometry=Box((0.3, 0.3, 0.4)))])
+    fan = bake(scene)
+    known = "nothing is known of 'flurbelgurk', the name that a person gave 'fan'; the object stays as it was"
+    with pytest.warns(BundleWarning, match=known):
+        named = rebake(fan.override("fan", name="flurbelgurk"))
+    assert (named.objects, named.loops) == (fan.objects, fan.loops)
+    phone = bake(SceneSnapshot.build([SceneObject("smartphone", geometry=Box((0.3, 0.3, 0.4)))]))
+    assert rebake(named.override("fan", name="smartphone")).loops["fan"] == phone.loops["smartphone"]
+
+
 def test_corrections_of_states_that_a_new_name_does_not_have_bring_a_warning() -> None:
     scene = SceneSnapshot.build([SceneObject("fan", geometry=Box((0.3, 0.3, 0.4)))])
     fan = rebake(bake(scene).override("fan", intensity={"on": 0.5}))

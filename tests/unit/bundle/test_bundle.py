@@ -28,7 +28,7 @@ from scene2hap import (
 from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.bundle import BundleWarning
 from scene2hap.clips.haptic_clip import Curve, Transient
-from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError, UnknownObject
+from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError, CallError, UnknownObject
 from scenes import box, haptics, scene, table_with_two_phones, tone_loop
 
 
@@ -69,6 +69,13 @@ def assert_same(a: HapticBundle, b: HapticBundle) -> None:
 def test_round_trip(tmp_path: Path, make: object) -> None:
     bundle = make()
     assert_same(HapticBundle.load(bundle.save(tmp_path / "b")), bundle)
+
+
+def test_a_bundle_as_a_key_says_what_to_use() -> None:
+    bundle = table_with_two_phones()[1]
+    with pytest.raises(CallError, match="no key of a dictionary.*Use the path of its folder"):
+        {bundle: 1}  # noqa: B018
+    assert {bundle.snapshot: 1}[bundle.snapshot] == 1
 
 
 def test_baked_bundle_equals_its_copies_and_no_other_bundle(tmp_path: Path) -> None:

@@ -2,10 +2,14 @@
 
 import json
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+import soundfile
+from numpy.typing import NDArray
 
 from scene2hap import HapticBundle
 from scene2hap.bundle.checking import BundleWarning
@@ -81,3 +85,51 @@ def test_met_or_absent_contact_need_does_not_warn(folder: Path, needs: str | Non
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         HapticBundle.load(folder)
+
+
+def edit_loop(folder: Path, change: Callable[[NDArray[np.float64]], NDArray[np.float64]], **written: Any) -> None:
+    file = folder / json.loads((folder / "loops.json").read_text())["phone"]["ringing"]["tactile"]
+    samples, rate = soundfile.read(file)
+    soundfile.write(file, change(samples), rate, **{"subtype": "PCM_24", **written})
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        (lambda x: x * np.linspace(1.0, 0.0, len(x)) + np.linspace(0.3, 0.0, len(x)), r"jumps by 0\.\d+ of full scale"),
+        (lambda x: 0 * x, "is silent.*mute ID"),
+        (lambda x: 4 * x, r"peaks 1\.6 dB over full scale"),  # 20 lg (4 * 0.3)
+    ],
+    ids=["ends that do not meet", "silence", "too hot"],
+)
+def test_a_loop_that_an_editor_has_spoilt_brings_a_warning(
+    folder: Path, change: Callable[[NDArray[np.float64]], NDArray[np.float64]], told: str
+) -> None:
+    edit_loop(folder, change, subtype="FLOAT")
+    with pytest.warns(BundleWarning, match=f"the tactile loop of 'phone', state 'ringing', {told}"):
+        HapticBundle.load(folder)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [lambda x: x, lambda x: np.roll(x, 25), lambda x: 0.001 * x, lambda x: np.sign(x) * 0.5, lambda x: 0 * x + 0.2],
+    ids=["untouched", "another seam", "faint", "square", "offset"],
+)
+def test_a_loop_that_repeats_without_a_jump_brings_none(
+    folder: Path, change: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+) -> None:
+    edit_loop(folder, change)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        HapticBundle.load(folder)
+
+
+def test_a_loop_with_the_name_of_its_author_is_read(folder: Path) -> None:
+    before = HapticBundle.load(folder)
+    file = folder / json.loads((folder / "loops.json").read_text())["phone"]["ringing"]["tactile"]
+    samples, rate = soundfile.read(file)
+    with soundfile.SoundFile(file, "w", rate, 1, "PCM_24") as written:
+        written.artist, written.comment = "me", "take 3"
+        written.write(samples)
+    assert b"take 3" in file.read_bytes()
+    assert HapticBundle.load(folder) == before

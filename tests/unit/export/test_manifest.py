@@ -7,9 +7,12 @@ import warnings
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from scene2hap import SceneWarning
+from scene2hap.audio.run_curve import RunCurve
 from scene2hap.export import export_bundle
 from scenes import table_with_two_phones
 
@@ -57,6 +60,34 @@ def test_a_manifest_says_which_sources_run_and_rest_in_turns(tmp_path: Path) -> 
     phone = next(one for one in manifest["sources"] if one["object_id"] == "phone")
     turns = {state["name"]: (state["on_s"], state["off_s"]) for state in phone["states"]}
     assert turns == {"ringing": (2.0, 4.0), "alarm": (None, None)}
+
+
+def test_an_engine_can_start_and_stop_sources_by_a_manifest(tmp_path: Path) -> None:
+    _, bundle = table_with_two_phones()
+    haptics, loops = bundle.objects["phone"], bundle.loops["phone"]
+    ringing, alarm = haptics.states
+    states = (replace(ringing, spins=True, start_up_s=2.0, wind_down_s=1.0), replace(alarm, start_up_s=0.5))
+    recorded = RunCurve(1.0, (1.0, 0.4, 0.1, 0.0), (1.0, 0.9, 0.5, 0.2))
+    loops = {**loops, "ringing": replace(loops["ringing"], wind_down=recorded)}
+    objects = {**bundle.objects, "phone": replace(haptics, states=states)}
+    export_bundle(replace(bundle, objects=objects, loops={**bundle.loops, "phone": loops}), tmp_path, "pcm")
+    manifest = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))
+    phone = next(one for one in manifest["sources"] if one["object_id"] == "phone")
+    first, second = phone["states"]
+    assert (first["spins"], second["spins"]) == (True, False)
+    assert first["wind_down"] == {"amplitude": [1.0, 0.4, 0.1, 0.0], "speed": [1.0, 0.9, 0.5, 0.2]}
+    assert second["wind_down"] is None
+    # Between the points an engine draws lines. A motor's speed is x (2 - x), and the force of an unbalance its square.
+    x = np.linspace(0, 1, 1001)
+
+    def at(course: list[float]) -> NDArray[np.float64]:
+        return np.interp(x, np.linspace(0, 1, len(course)), course)
+
+    speed = x * (2 - x)
+    assert at(first["start_up"]["speed"]) == pytest.approx(speed, abs=0.002)
+    assert at(first["start_up"]["amplitude"]) == pytest.approx(speed**2, abs=0.002)
+    assert at(second["start_up"]["speed"]) == pytest.approx(np.ones(1001))
+    assert at(second["start_up"]["amplitude"]) == pytest.approx((1 - np.cos(np.pi * x)) / 2, abs=0.002)
 
 
 def test_files_of_sources_that_are_gone_are_removed(tmp_path: Path) -> None:

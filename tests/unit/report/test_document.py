@@ -16,6 +16,7 @@ from scene2hap.cli import main
 from scene2hap.errors import ConfigError
 from scene2hap.report import report_document, write_report
 from scene2hap.report.felt_map import ALL_BANDS, ALL_SOURCES, felt_map
+from scene2hap.report.page import assemble
 from scene2hap.report.surface_points import patches_of
 from scene2hap.scene.objects import UpAxis
 
@@ -139,8 +140,17 @@ def test_the_command_writes_a_page(kitchen: HapticBundle, tmp_path: Path) -> Non
     assert main(["report", str(bundle), "-o", str(tmp_path / "report.html"), "-q"]) == 0
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert page.startswith("<!")
-    assert '"format":"scene2hap/report"' in page
+    assert 'id="report"' in page
     assert len(page) < 5_000_000
+
+
+def test_a_page_of_many_sources_is_small_enough_for_a_mail() -> None:
+    rows = [SceneObject("floor", pose=Pose((8, -0.05, 8)), geometry=Box((18, 0.1, 18)))]
+    at = [(float(x), float(z)) for x in range(1, 16, 2) for z in range(1, 16, 2)]
+    rows += [SceneObject(f"fan {x} {z}", pose=Pose((x, 0.2, z)), geometry=Box((0.3, 0.4, 0.3))) for x, z in at]
+    document = report_document(bake(SceneSnapshot.build(rows)))
+    assert len(document["felt"]["sources"]) == 1 + len(at)
+    assert len(assemble(document)) < 0.3 * len(json.dumps(document))
 
 
 def test_copies_of_an_object_share_their_sound_in_the_document() -> None:

@@ -7,9 +7,22 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
-from scene2hap import Box, HapticBundle, HapticSession, Pose, SceneObject, SceneSnapshot, SceneWarning, bake, rebake
+from scene2hap import (
+    AudioClip,
+    Box,
+    Credit,
+    HapticBundle,
+    HapticSession,
+    Pose,
+    SceneObject,
+    SceneSnapshot,
+    SceneWarning,
+    bake,
+    rebake,
+)
 
 
 @pytest.fixture(scope="module")
@@ -42,6 +55,27 @@ def test_a_baked_correction_brings_none(baked: HapticBundle, correction: dict[st
         corrected.save(tmp_path / "b")
         HapticSession(corrected)
         HapticSession(HapticBundle.load(tmp_path / "b"))
+
+
+HUM = AudioClip((0.4 * np.sin(np.arange(48000) * 0.02)).astype(np.float32), 48000, Credit("hum", "me", "CC0"))
+OF_LOOPS: list[dict[str, Any]] = [{"intensity": 0.3}, {"pitch_hz": {"ringing": 150.0}}, {"clip": HUM}]
+
+
+@pytest.mark.parametrize("correction", OF_LOOPS, ids=lambda one: next(iter(one)))
+def test_a_sound_intensity_or_pitch_waits_for_a_rebake(
+    baked: HapticBundle, correction: dict[str, Any], tmp_path: Path
+) -> None:
+    corrected = baked.override("smartphone", **correction)
+    words = "not baked yet.*sound, intensity or pitch of 'smartphone'.*rebake"
+    with pytest.warns(SceneWarning, match=words):
+        HapticSession(corrected)
+    remade = rebake(corrected)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", SceneWarning)
+        HapticSession(HapticBundle.load(remade.save(tmp_path / "b")))
+        HapticSession(rebake(remade.override("smartphone", locked=True)))
+    with pytest.warns(SceneWarning, match=words):
+        HapticSession(replace(remade, overrides={}))
 
 
 def test_a_correction_that_takes_effect_at_once_brings_none(baked: HapticBundle) -> None:

@@ -5,7 +5,7 @@ import { h, isolated, nameOf, pathOf, replaceChildren } from "./dom.js";
 import { LOWEST_CODE, feltLevels, shownLevel } from "./felt_levels.js";
 import { makeLegend } from "./legend.js";
 import { makePanel } from "./panel.js";
-import { readDocument } from "./report_document.js";
+import { readDocument, textOf } from "./report_document.js";
 import { download, isServed, send } from "./saving.js";
 import { makeSceneView } from "./scene_view.js";
 import { makeStore } from "./store.js";
@@ -15,17 +15,19 @@ import { makeToolbar } from "./toolbar.js";
 
 /** Largest number of sources whose paths the tooltip shows, the strongest first. */
 const MOST_PATHS = 3;
+// Width of A4 and Letter inside their margins [px of CSS].
+const PAPER_PX = 700;
 
 const one = (selector) => document.querySelector(selector);
 
-try {
-  start(readDocument(one("#report").textContent));
-} catch (cause) {
-  // The data is incomplete or of another version: show the error on the page and in the console.
-  one("#problem").textContent = `This report cannot be shown: ${cause.message}`;
-  one("#problem").hidden = false;
-  throw cause;
-}
+textOf(one("#report").textContent)
+  .then((text) => start(readDocument(text)))
+  .catch((cause) => {
+    // The data is incomplete or of another version: show the error on the page and in the console.
+    one("#problem").textContent = `This report cannot be shown: ${cause.message}`;
+    one("#problem").hidden = false;
+    throw cause;
+  });
 
 function start(report) {
   const felt = feltLevels(report.felt);
@@ -50,6 +52,8 @@ function start(report) {
   let isMade = false;
   let savedCount = -1;
   makeTheme(one("#theme"), () => isMade && repaint());
+  addEventListener("beforeprint", () => keepViewOnPaper(true));
+  addEventListener("afterprint", () => keepViewOnPaper(false));
   const panel = makePanel({ element: one("#panel"), report, felt, store, corrections, onFocus });
   const tables = makeTableViews({ element: one("#tables"), report, felt, store, onFocus });
   makeToolbar(one("#toolbar"), report, store);
@@ -67,6 +71,14 @@ function start(report) {
 
   function ready() {
     document.documentElement.dataset.ready = "1";
+  }
+
+  // The picture and its labels keep their size on paper, since the page is not drawn again for it.
+  function keepViewOnPaper(isPrinting) {
+    const { style, clientWidth, clientHeight } = one("#view");
+    style.width = isPrinting ? `${clientWidth}px` : "";
+    style.height = isPrinting ? `${clientHeight}px` : "";
+    style.zoom = isPrinting ? Math.min(1, PAPER_PX / clientWidth) : "";
   }
 
   function repaint() {

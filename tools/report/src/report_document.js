@@ -1,4 +1,4 @@
-// The document of a report: base64 arrays are decoded when they are first needed, and objects are found by id.
+// The document of a report: it is compressed, base64 arrays are decoded when they are first needed, and objects are found by id.
 
 export function bytesOf(base64) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(base64);
@@ -26,6 +26,12 @@ export function uint16Of(base64) {
   return Uint16Array.from({ length: bytes.byteLength / 2 }, (_, i) => view.getUint16(2 * i, true));
 }
 export const uint32Of = (base64) => wordsOf(base64, Uint32Array, "getUint32");
+
+/** The text of a page's data, which are gzip in base64. */
+export function textOf(base64) {
+  const stream = new Blob([bytesOf(base64.trim())]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Response(stream).text();
+}
 
 /** Read the document of the page. Throws an Error with a message for the user if it is not a valid one. */
 export function readDocument(text) {

@@ -1,11 +1,12 @@
-// Dark or light theme: the system's choice until the user makes another.
+// Dark or light theme: the system's choice until the user makes another. Paper is light.
 
 const system = matchMedia("(prefers-color-scheme: dark)");
 
 export function makeTheme(button, onChange) {
   const root = document.documentElement;
   let chosen = null;
-  const isDark = () => (chosen ?? (system.matches ? "dark" : "light")) === "dark";
+  let isPrinting = false;
+  const isDark = () => !isPrinting && (chosen ?? (system.matches ? "dark" : "light")) === "dark";
   const apply = () => {
     root.dataset.theme = isDark() ? "dark" : "light";
     button.textContent = isDark() ? "Light theme" : "Dark theme";
@@ -16,6 +17,12 @@ export function makeTheme(button, onChange) {
     apply();
   });
   system.addEventListener("change", apply);
+  for (const name of ["beforeprint", "afterprint"]) {
+    addEventListener(name, () => {
+      isPrinting = name === "beforeprint";
+      apply();
+    });
+  }
   apply();
 }
 

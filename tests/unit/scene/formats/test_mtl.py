@@ -34,6 +34,14 @@ def one(path: Path) -> SceneObject:
     return item
 
 
+@pytest.mark.parametrize(
+    ("named", "stored"), [("dark%20oak.png", "dark oak.png"), ("50%20.png", "50%20.png"), ("100%.png", "100%.png")]
+)
+def test_a_name_is_read_as_it_is_or_as_an_address(tmp_path: Path, named: str, stored: str) -> None:
+    (tmp_path / stored).write_bytes(image_file())
+    assert looks(one(write(tmp_path, f"newmtl wood\nmap_Kd {named}\n"))).materials[0].texture is not None
+
+
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
 def test_names_of_materials_and_files_are_read_in_any_encoding(tmp_path: Path, encoding: str) -> None:
     (tmp_path / "Türe.png").write_bytes(image_file())

@@ -1,0 +1,47 @@
+"""What is wrong in a JSON file that a person edited by hand, in words that say what to do."""
+
+from __future__ import annotations
+
+import json
+import re
+
+_CONFLICT = re.compile(r"^(<{7}|={7}|>{7})( .*)?$", re.MULTILINE)
+"""A line that git writes around two versions of the same lines."""
+
+_MENDS: tuple[tuple[str, str], ...] = (
+    (r"//|/\*|#", "JSON has no comments; remove this one"),
+    (r"(?<=,)[\]}]", "there is a comma before a closing bracket; remove it"),
+    (r",\s*[\]}]", "there is a comma before a closing bracket; remove it"),  # where Python 3.13 finds the same mistake
+    (r"['\u2018\u2019\u201c\u201d\u201e]", 'write names and texts in straight double quotes, as "name"'),
+    (r"(?:True|False|None)\b", "write true, false and null in small letters, None as null"),
+    (r"[+-]?\.\d|\+", "write a number as 0.5 or -0.5"),
+    (r"(?<=\d,)\d", "write a number with a decimal point, as 0.5"),
+    (r"\Z", "the file ends before the last bracket is closed"),
+)
+"""What stands at the place where a parser stops, after what (blanks removed), and what to do."""
+
+
+_MENDS_BY_MESSAGE = {
+    "Extra data": "the file goes on after its last bracket; remove the rest",
+    "Unterminated string": "this text has no closing quote",
+    "Invalid control character": "a text has no closing quote on its line, or holds a tab, which is written as \\t",
+    "Invalid \\": 'write each backslash twice, as "C:\\\\sounds"',
+    "Expecting ',' delimiter": "there is no comma before this place",
+    "Expecting ':' delimiter": "there is no colon before this place",
+}
+"""What to do, by the begin of the parser's own words."""
+
+
+def json_problem(error: json.JSONDecodeError) -> str:
+    """Return the line and the mistake in a text that is no JSON, and what to do."""
+    text, at = error.doc, error.pos
+    if not text.strip():
+        return "it is empty; an empty JSON object is {}"
+    if mark := _CONFLICT.search(text):
+        line = text.count("\n", 0, mark.start()) + 1
+        return f"line {line} is {mark[1]}, where git could not merge two versions; join them, and delete all such marks"
+    here = text[:at].rstrip() + (rest := text[at:].lstrip())
+    place = len(here) - len(rest)
+    mend = next((mend for pattern, mend in _MENDS if re.compile(pattern).match(here, place)), "")
+    mend = mend or next((mend for words, mend in _MENDS_BY_MESSAGE.items() if error.msg.startswith(words)), "")
+    return f"line {error.lineno}, column {error.colno}: {mend or error.msg}"
