@@ -16,7 +16,7 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError
-from scene2hap.scene.geometry import frozen, vector
+from scene2hap.scene.geometry import Vector, frozen, vector
 
 # A quaternion this close to unit length is kept unchanged, so that JSON round trips are bit-identical. One shorter than
 # `LEAST_LENGTH` is no rotation.
@@ -201,6 +201,16 @@ class Pose:
                 "the last column. Give matrix.T if the position stands in the last row."
             )
         return cls(vector(m[:3, 3]), _quaternion(r))
+
+
+def in_world(own_m: Vector, pose: Pose) -> Vector:
+    """Return a point of an object's own frame in the world [m], as `Pose.to_world`, but quickly for a single point."""
+    (a, b, c), (u, v, w) = own_m, pose.position_m
+    if not (a or b or c):
+        return u, v, w
+    x, y, z, s = pose.rotation_xyzw
+    d, e, f = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
+    return u + a + s * d + y * f - z * e, v + b + s * e + z * d - x * f, w + c + s * f + x * e - y * d
 
 
 def _warn_of_length(rotation: Iterable[float], length: float) -> None:

@@ -26,7 +26,7 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
 from scene2hap.contact.rule import TOUCH_M
 from scene2hap.scene.geometry import Vector, cross, dot
-from scene2hap.scene.pose import Pose
+from scene2hap.scene.pose import Pose, in_world
 from scene2hap.session.impacts.motion_track import (
     LEAST_TRAVEL_M,
     LEFT,
@@ -34,7 +34,6 @@ from scene2hap.session.impacts.motion_track import (
     MOST_STEPS,
     STILL,
     MotionTrack,
-    in_world,
 )
 from scene2hap.session.impacts.slams import RelativePoses, Slam
 
