@@ -19,7 +19,7 @@ from scene2hap.scene import limits
 from scene2hap.scene.geometry import bounds_of, frozen
 from scene2hap.scene.images import ObjectImages
 from scene2hap.scene.looks.appearance import Appearance
-from scene2hap.scene.pose import Pose
+from scene2hap.scene.pose import Pose, how_to_write
 from scene2hap.scene.shapes import DominantSurface, Geometry, MeshLike, geometry_of
 
 UpAxis = Literal["y", "z"]
@@ -162,7 +162,9 @@ class SceneObject:
         if not isinstance(id, str):
             raise SceneError(f"id is {checks.represented(id)}; it must be a text, and every object has its own.")
         if not isinstance(self.name, str) or not isinstance(pose, Pose):
-            which, value, wanted = ("pose", pose, "a Pose") if isinstance(self.name, str) else ("name", name, "a text")
+            which, value, wanted = ("name", name, "a text")
+            if isinstance(self.name, str):
+                which, value, wanted = ("pose", pose, f"a Pose: {how_to_write(pose)}")
             raise SceneError(
                 f"{which} of object {checks.represented(id)} is {checks.described(value)}; it must be {wanted}. "
                 "Give what follows the id by name: SceneObject(id, pose=..., geometry=...)."

@@ -213,6 +213,13 @@ def in_world(own_m: Vector, pose: Pose) -> Vector:
     return u + a + s * d + y * f - z * e, v + b + s * e + z * d - x * f, w + c + s * f + x * e - y * d
 
 
+def how_to_write(given: object) -> str:
+    """The words that say how to write something else as a Pose."""
+    if getattr(given, "shape", None) == (4, 4):
+        return "write Pose.from_matrix(matrix)"
+    return "write Pose(position_m), or Pose(position_m, rotation_xyzw) with w last"
+
+
 def _warn_of_length(rotation: Iterable[float], length: float) -> None:
     parts = ", ".join(f"{component:g}" for component in rotation)
     warn_of(

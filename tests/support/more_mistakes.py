@@ -96,6 +96,7 @@ MORE_TOPICS: dict[str, tuple[Mistake, ...]] = {
         mistake("SceneSnapshot.build({'vase': new_object})", "dict", "list of SceneObject"),
         mistake("bake(new_object)", "SceneObject", "SceneSnapshot.build([object])"),
         mistake("SceneObject('vase', position=(0, 1, 0))", "'position'", "pose=Pose((x, y, z))"),
+        mistake("SceneObject('vase', pose=np.eye(4), geometry=Box((1, 1, 1)))", "ndarray", "Pose.from_matrix(matrix)"),
         warned(
             "bake(SceneSnapshot.build([SceneObject('phone', geometry=Box((0.1, 0.1, 0.1)), mass_kg=190)]))",
             "190 kg",

@@ -281,7 +281,7 @@ def _require(model: Any, data: Any) -> None:
         raise SceneError(
             f"model is a {type(model).__name__} and data a {type(data).__name__}; they must be mujoco.MjModel and "
             "mujoco.MjData. Wrappers keep them inside (dm_control: physics.model.ptr, physics.data.ptr; gymnasium: "
-            "env.unwrapped.model, env.unwrapped.data)."
+            "env.unwrapped.model, env.unwrapped.data; an MjSpec: spec.compile(); MJX: mjx.get_data(model, data))."
         )
     has, needs = (len(data.xpos), len(data.geom_xpos), len(data.qpos)), (model.nbody, model.ngeom, model.nq)
     if has != needs:
