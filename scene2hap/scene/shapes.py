@@ -188,6 +188,7 @@ class DominantSurface:
     thickness_m: float
     flags: tuple[SurfaceFlag, ...] = ()
     outline: Outline | None = None
+    is_assumed = False  # measured with y up, before the scene is known; no dataclass field, so that it is not stored
 
     def __post_init__(self) -> None:
         if not isinstance(self.pose, Pose):

@@ -105,8 +105,9 @@ def test_equal_links_of_different_robots_are_no_copies() -> None:
 def test_surface_faces_up_with_z_up() -> None:
     cube = SceneObject("cube", geometry=Box((0.5, 0.5, 0.5)))
     assert np.abs(cube.surface.pose.rotation[1, 2]) == pytest.approx(1.0)
-    scene = SceneSnapshot.build([cube], up_axis="z")
-    assert np.abs(scene.objects[0].surface.pose.rotation[2, 2]) == pytest.approx(1.0)
+    for one in (cube, replace(cube, pose=Pose((0.0, 0.0, 0.25)))):
+        scene = SceneSnapshot.build([one], up_axis="z")
+        assert np.abs(scene.objects[0].surface.pose.rotation[2, 2]) == pytest.approx(1.0)
     # A given surface is kept.
     given = DominantSurface(Pose(), 0.3, 0.2, 0.01)
     kept = SceneSnapshot.build([SceneObject("cube", geometry=Box((0.5, 0.5, 0.5)), surface=given)], up_axis="z")
