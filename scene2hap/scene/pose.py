@@ -194,7 +194,12 @@ class Pose:
             raise SceneError(f"matrix is not rigid: its shape is {m.shape}; it must be (4, 4) and finite.")
         r = m[:3, :3]
         if np.abs(r).max() > 2.0 or not np.allclose(r @ r.T, np.eye(3), atol=1e-6) or np.linalg.det(r) < 0:
-            raise SceneError("matrix is not rigid: bake its scale or mirroring into the mesh first.")
+            lengths = ", ".join(f"{math.hypot(*column):.4g}" for column in r.T.tolist())
+            raise SceneError(
+                f"matrix is not rigid: its columns have the lengths {lengths}, are not at right angles, or mirror. "
+                "Bake scale, shear and mirroring into the mesh first. A matrix that is only scaled is then made rigid "
+                "by matrix[:3, :3] /= np.linalg.norm(matrix[:3, :3], axis=0)."
+            )
         if np.abs(m[3] - (0.0, 0.0, 0.0, 1.0)).max() > _LAST_ROW:
             raise SceneError(
                 f"matrix has {tuple(m[3].tolist())} in its last row; it must be (0, 0, 0, 1), with the position [m] in "

@@ -164,8 +164,10 @@ def geometry_of(value: object, owner: str) -> Geometry:
     if isinstance(value, tuple | list) and len(value) == 2:
         return TriMesh(value[0], value[1])
     how = "is missing" if value is None else f"is {checks.described(value)}"
+    are_points = hasattr(value, "vertices") or isinstance(value, np.ndarray)
     raise SceneError(
         f"geometry of {owner} {how}; it must be a Box((x, y, z)) of edges [m], a TriMesh, or (vertices_m, faces)."
+        + " Points have no surface; their hull is trimesh.PointCloud(points_m).convex_hull." * are_points
     )
 
 
