@@ -218,6 +218,15 @@ def in_world(own_m: Vector, pose: Pose) -> Vector:
     return u + a + s * d + y * f - z * e, v + b + s * e + z * d - x * f, w + c + s * f + x * e - y * d
 
 
+def in_own(point_m: Vector, pose: Pose) -> Vector:
+    """Return a point of the world in an object's own frame [m], as `Pose.to_own`, but quickly for a single point."""
+    (a, b, c), (u, v, w) = point_m, pose.position_m
+    a, b, c = a - u, b - v, c - w
+    x, y, z, s = pose.rotation_xyzw
+    d, e, f = 2 * (z * b - y * c), 2 * (x * c - z * a), 2 * (y * a - x * b)
+    return a + s * d + z * e - y * f, b + s * e + x * f - z * d, c + s * f + y * d - x * e
+
+
 def how_to_write(given: object) -> str:
     """The words that say how to write something else as a Pose."""
     if getattr(given, "shape", None) == (4, 4):

@@ -26,7 +26,7 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
 from scene2hap.contact.rule import TOUCH_M
 from scene2hap.scene.geometry import Vector, cross, dot
-from scene2hap.scene.pose import Pose, in_world
+from scene2hap.scene.pose import Pose, in_own, in_world
 from scene2hap.session.impacts.motion_track import (
     LEAST_TRAVEL_M,
     LEFT,
@@ -414,9 +414,8 @@ class Landings:
         if begin.rotation_xyzw == end.rotation_xyzw == pose.rotation_xyzw:
             (a, b, c), (x, y, z) = begin.position_m, end.position_m
             return x - a, y - b, z - c
-        own = pose.to_own([point_m])
-        x, y, z = (end.to_world(own) - begin.to_world(own))[0].tolist()
-        return x, y, z
+        own_m = in_own(point_m, pose)
+        return _difference(in_world(own_m, end), in_world(own_m, begin))
 
     def _normal(self, object_id: str, other: str, point_m: Vector, junction: Junction, since: int) -> Vector:
         """Normal from the object to the other: the contact's, else that of its points if they span a plane, else the
