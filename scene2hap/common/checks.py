@@ -241,10 +241,10 @@ def text(name: str, value: object, *, error: type[Scene2HapError]) -> str:
     return value
 
 
-def path(name: str, value: object, *, error: type[Scene2HapError]) -> Path:
+def path(name: str, value: object, *, error: type[Scene2HapError], hint: str = "") -> Path:
     """Return `value` as a path, or raise `error` if it is no text and no path."""
     if not isinstance(value, str | os.PathLike):
-        raise error(f"{name} is {described(value)}; it must be a path, as a text or a pathlib.Path.")
+        raise error(_sentence(f"{name} is {described(value)}; it must be a path, as a text or a pathlib.Path", hint))
     try:
         return Path(value)
     except TypeError as cause:  # a path of bytes

@@ -1,7 +1,7 @@
 """The contact graph: which objects touch, and where, updated as they move.
 
-Contacts come from the scene if it has them (from an engine), else from geometry. Two surfaces touch within a tolerance,
-which depends on the objects (`contact.rule`) unless one is stated.
+Contacts come from the scene if it has them (from an engine), with those at hinges, else from geometry. Two surfaces
+touch within a tolerance, which depends on the objects (`contact.rule`) unless one is stated.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.counted import counted
 from scene2hap.contact.finder import ContactFinder
+from scene2hap.contact.hinge import contacts_at
 from scene2hap.contact.junction import ContactArrays, Junction, Pair, junctions_of, pair_of
 from scene2hap.contact.touch_finder import TouchFinder
 from scene2hap.errors import SceneError, UnknownObject
@@ -84,13 +85,14 @@ class ContactGraph:
         self._version = self._topology = 0
         self._change_log: deque[list[Pair]] = deque(maxlen=_LONGEST_LOG)
         self._views: dict[str, object] = {}
+        self._hinges = {item.id: item.hinge for item in scene.objects if item.hinge is not None}
         self._finder: ContactFinder | TouchFinder | None = None
         if scene.contacts is None:
             up_axis = {"y": 1, "z": 2}[scene.up_axis]
             self._finder = ContactFinder(up_axis) if tolerance_m is None else TouchFinder(up_axis, tolerance_m)
             self._replace({}, scene.objects)
         else:
-            self._store(junctions_of(scene.contacts))
+            self._store(junctions_of([*scene.contacts, *contacts_at(self._hinges, self._poses)]))
 
     def __repr__(self) -> str:
         counts = f"{counted(len(self._poses), 'object')}, {counted(len(self._junctions), 'pair')}"
@@ -204,8 +206,8 @@ class ContactGraph:
     ) -> ContactChange:
         """Remove, add and move objects, in this order. Only pairs that this may change are computed.
 
-        `contacts`, from an engine, replaces all contacts; from then on contacts are given, never found. Given contacts
-        of an object that moves or is removed are dropped, unless the call gives new ones.
+        `contacts`, from an engine, replaces all contacts; from then on contacts are given, never found, but for those
+        at hinges. Given contacts of an object that moves or is removed are dropped, unless the call gives new ones.
 
         Raises: UnknownObject: an id that is not in the scene. SceneError: an added id that is already in the scene, or
         a pose that is no Pose. The graph is then unchanged.
@@ -264,9 +266,13 @@ class ContactGraph:
             _require_known(contact.b, poses)
 
         before, self._poses, self._poses_shared = self._poses, poses, False
+        for x in removed:
+            self._hinges.pop(x, None)
+        self._hinges.update((item.id, item.hinge) for item in added if item.hinge is not None)
         if contacts is not None:
             self._finder = None
-            return self._store({**dict.fromkeys(self._junctions), **junctions_of(contacts)})
+            given = junctions_of([*contacts, *contacts_at(self._hinges, poses)])
+            return self._store({**dict.fromkeys(self._junctions), **given})
         stale = {x for x in moved if x in before and poses[x] != before[x]} | {*removed, *(item.id for item in added)}
         new = {item.id for item in added}
         elsewhere = {x: poses[x] for x in stale & poses.keys() if x not in new}
@@ -279,7 +285,10 @@ class ContactGraph:
         """Let the finder update the contacts of these objects, or drop those that were given. Returns the change."""
         if self._finder is not None:
             return self._store(self._finder.replace(moved, added, gone))
-        return self._store({pair_of(x, y): None for x in (*moved, *gone) for y in self._beside.get(x, ())})
+        stale = {*moved, *gone}
+        dropped = {pair_of(x, y): None for x in stale for y in self._beside.get(x, ())}
+        at_hinges = contacts_at(self._hinges, self._poses, stale | {item.id for item in added})
+        return self._store({**dropped, **junctions_of(at_hinges)})
 
     def _store(self, found: Mapping[Pair, Junction | None]) -> ContactChange:
         """Store the junctions of these pairs, None for no contact, and log the change. Returns the change."""

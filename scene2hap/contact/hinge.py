@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from scene2hap.contact.body import Body, apart_by
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.scene.hinges import HINGE_PLAY_M, series
+from scene2hap.scene.objects import Contact, Hinge
+from scene2hap.scene.pose import Pose, in_world
 
 
 def are_hinged(x: Body, y: Body) -> bool:
@@ -22,7 +24,26 @@ def pivot_m(x: Body, y: Body) -> Triple | None:
     body, other = (x, y) if x.hinge is not None and x.hinge.to == y.id else (y, x)
     hinge = body.hinge
     assert hinge is not None
-    (a, b, c), (d, e, f) = here, there = body.to_world(hinge.point_m), other.to_world(hinge.other_point_m)
+    return _between(body.to_world(hinge.point_m), other.to_world(hinge.other_point_m))
+
+
+def contacts_at(
+    hinges: Mapping[str, Hinge], poses: Mapping[str, Pose], of: Collection[str] | None = None
+) -> Iterator[Contact]:
+    """Yield the contacts at hinges that hold: engines report none there.
+
+    Parameters: hinges : by the id of the held object; of : only those with one of these objects; None means all.
+    """
+    for x, hinge in hinges.items():
+        if hinge.to in poses and (of is None or x in of or hinge.to in of):
+            point_m = _between(in_world(hinge.point_m, poses[x]), in_world(hinge.other_point_m, poses[hinge.to]))
+            if point_m is not None:
+                yield Contact(x, hinge.to, point_m)
+
+
+def _between(here: Triple, there: Triple) -> Triple | None:
+    """Return the point half way between the two points of a hinge [m]; None if the hinge does not hold."""
+    (a, b, c), (d, e, f) = here, there
     return ((a + d) / 2, (b + e) / 2, (c + f) / 2) if math.dist(here, there) < HINGE_PLAY_M else None
 
 

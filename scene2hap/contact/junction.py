@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -40,22 +40,17 @@ class Junction(NamedTuple):
 
 def junctions_of(contacts: Iterable[Contact]) -> dict[Pair, Junction]:
     """Group given contacts by pair, with a < b. Points are sorted, so that the order of the input has no effect."""
-    pairs: dict[Pair, list[Contact]] = {}
-    for contact in contacts:
-        if contact.a > contact.b:
-            x = contact.normal
-            turned = None if x is None else (-x[0], -x[1], -x[2])
-            contact = replace(contact, a=contact.b, b=contact.a, normal=turned)
-        pairs.setdefault((contact.a, contact.b), []).append(contact)
+    pairs: dict[Pair, list[tuple[Triple, float, Triple | None, float | None]]] = {}
+    for one in contacts:
+        normal = one.normal
+        if normal is not None and one.a > one.b:
+            normal = (-normal[0], -normal[1], -normal[2])
+        pairs.setdefault(pair_of(one.a, one.b), []).append((one.point_m, one.weight, normal, one.area_m2))
     found = {}
     for pair, several in pairs.items():
-        several.sort(key=lambda one: one.point_m)
-        found[pair] = Junction(
-            tuple(one.point_m for one in several),
-            tuple(one.weight for one in several),
-            tuple(one.normal for one in several),
-            tuple(one.area_m2 for one in several),
-        )
+        several.sort(key=lambda row: row[0])
+        points_m, weights, normals, areas_m2 = zip(*several, strict=True)
+        found[pair] = Junction(points_m, weights, normals, areas_m2)
     return found
 
 

@@ -127,7 +127,7 @@ def _require_same_scene(poses: Mapping[str, Pose], session: HapticSession) -> No
         raise SceneError(
             f"the engine lacks {len(unknown)} of {len(here)} objects of the session: {names}. Make the session of "
             "the engine's own snapshot, or of a bundle that was baked from it, and give the link the arguments of that "
-            "snapshot (group, geom_groups)."
+            "snapshot (group, geom_groups). Objects that the game has taken out: session.remove(id)."
         )
     if not all(isinstance(poses[object_id], Pose) for object_id in here):
         return  # the first update reports it

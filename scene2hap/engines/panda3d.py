@@ -16,9 +16,9 @@ from scene2hap.session import HapticSession
 class Panda3DLink(EngineLink):
     """Let a session follow the nodes below a Panda3D NodePath: call `link.update(touches)` once per frame.
 
-    Nodes are looked up once, in the constructor. If the game removes a node from the graph, its object keeps its pose
-    until `session.remove(id)`. Panda3D reports no contacts and no hands, so contacts are found from geometry, and the
-    game passes the touches.
+    Nodes are looked up once, in the constructor; `follow` adds one that comes later. If the game removes a node from
+    the graph, its object keeps its pose until `session.remove(id)`. Panda3D reports no contacts and no hands, so
+    contacts are found from geometry, and the game passes the touches.
     Parameters: render, group, unit_m : as for `scene.engines.panda3d.snapshot`. Touches are in metres.
     Raises: MissingExtra; SceneError: the session is of another graph.
     """
@@ -28,6 +28,14 @@ class Panda3DLink(EngineLink):
     ) -> None:
         self._reader = engine.PoseReader(render, group=group, unit_m=unit_m)
         super().__init__(_Panda3D(self._reader), session)
+
+    def follow(self, object_id: str, node: Any) -> None:
+        """Follow a node that came later: its object is in the session from `session.spawn` or `session.add` on.
+
+        The object's pose is that of the one object of `snapshot(node, group=1)`.
+        Raises: SceneError: it is no NodePath, or draws no triangles.
+        """
+        self._reader.follow(object_id, node)
 
     def object_id(self, node: Any) -> str | None:
         """Return the id of the object that a NodePath or node belongs to, such as one that a ray hits; None if to none.

@@ -40,7 +40,7 @@ class FileEntry(_Part):
     files: tuple[str, ...]
 
 
-class PassageEntry(_Part):
+class TransitionEntry(_Part):
     """The course of a start or a stop, at equal steps of its time; linear between them."""
 
     amplitude: tuple[float, ...] = Field(description="of the vibration, relative to steady running [-]")
@@ -59,8 +59,8 @@ class StateEntry(_Part):
     start_up_s: float
     wind_down_s: float
     spins: bool = Field(default=False, description="its pitch rises and falls, like that of a motor")
-    start_up: PassageEntry | None = Field(default=None, description="its start over start_up_s; null: at once")
-    wind_down: PassageEntry | None = Field(default=None, description="its stop over wind_down_s; null: at once")
+    start_up: TransitionEntry | None = Field(default=None, description="its start over start_up_s; null: at once")
+    wind_down: TransitionEntry | None = Field(default=None, description="its stop over wind_down_s; null: at once")
     on_s: float | None = Field(default=None, description="it runs so long, in turns with off_s [s]; null: always")
     off_s: float | None = Field(default=None, description="it rests so long [s]")
     credit: dict[str, str]
@@ -162,8 +162,8 @@ def _state(bundle: HapticBundle, source: str, name: str, files: tuple[FileEntry,
         start_up_s=inferred.start_up_s,
         wind_down_s=inferred.wind_down_s,
         spins=inferred.spins,
-        start_up=_passage(TransitionCurve(True, inferred.spins, loop.start_up), inferred.start_up_s),
-        wind_down=_passage(TransitionCurve(False, inferred.spins, loop.wind_down), inferred.wind_down_s),
+        start_up=_transition(TransitionCurve(True, inferred.spins, loop.start_up), inferred.start_up_s),
+        wind_down=_transition(TransitionCurve(False, inferred.spins, loop.wind_down), inferred.wind_down_s),
         on_s=inferred.on_s,
         off_s=inferred.off_s,
         credit=vars(loop.audible.credit),
@@ -171,14 +171,14 @@ def _state(bundle: HapticBundle, source: str, name: str, files: tuple[FileEntry,
     )
 
 
-def _passage(course: TransitionCurve, lasts_s: float) -> PassageEntry | None:
+def _transition(course: TransitionCurve, lasts_s: float) -> TransitionEntry | None:
     """Return a start or a stop as a session plays it, None if it takes no time."""
     if lasts_s == 0.0:
         return None
     n = _POINTS if course.curve is None else len(course.curve.amplitude)
     shares = np.linspace(0.0, 1.0, n)
     amplitude, speed = (np.round(curve(shares), 5).tolist() for curve in (course.amplitude, course.speed))
-    return PassageEntry(amplitude=tuple(amplitude), speed=tuple(speed))
+    return TransitionEntry(amplitude=tuple(amplitude), speed=tuple(speed))
 
 
 def _object(bundle: HapticBundle, item: Any) -> ObjectEntry:

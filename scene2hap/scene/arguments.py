@@ -6,6 +6,7 @@ import os
 
 from scene2hap.common import checks
 from scene2hap.errors import SceneError
+from scene2hap.scene.files import written_first
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -30,4 +31,4 @@ def given_scene(scene: object) -> SceneSnapshot:
         raise SceneError(f"{wanted} `SceneSnapshot.build(objects)` makes one of objects.")
     if isinstance(scene, SceneObject):
         raise SceneError(f"{wanted} `SceneSnapshot.build([object])` makes one of an object.")
-    raise SceneError(f"{wanted} `load_scene(path)` reads one.")
+    raise SceneError(f"{wanted} {written_first(scene) or '`load_scene(path)` reads one.'}")

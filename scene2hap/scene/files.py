@@ -128,3 +128,9 @@ def check_file(path: Path) -> None:
         raise SceneFormatError(f"{path.name!r} is empty (0 bytes). Export it again.")
     if is_pointer:
         raise SceneFormatError(f"{path.name!r} {LFS_ADVICE}.")
+
+
+def written_first(scene: object) -> str:
+    """A sentence that says how to read a scene of trimesh; empty for anything else."""
+    is_exported = callable(getattr(scene, "export", None))
+    return "Write it first: scene.export('scene.glb'), then load_scene('scene.glb')." if is_exported else ""

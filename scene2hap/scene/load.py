@@ -17,7 +17,7 @@ from scene2hap.common.printable import writable
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.files import HABITAT_SUFFIX, decoded, is_habitat, read_bytes, scene_stem
+from scene2hap.scene.files import HABITAT_SUFFIX, decoded, is_habitat, read_bytes, scene_stem, written_first
 from scene2hap.scene.grouping.collapsed import warn_of_collapsed, without_collapsed
 from scene2hap.scene.grouping.empty_names import says_nothing
 from scene2hap.scene.grouping.groups import Grouping, group_objects, unique_ids
@@ -77,7 +77,7 @@ def load_scene(
     broken, too large or outside assets_root; the scene is read without them. SceneWarning: nodes without size, or
     something of a Habitat scene, are left out.
     """
-    path = checks.path("path", path, error=SceneError)
+    path = checks.path("path", path, error=SceneError, hint=written_first(path))
     if up_axis is not None and not (isinstance(up_axis, str) and up_axis in ("y", "z")):
         raise SceneError(
             f"up_axis is {checks.represented(up_axis)}; it must be 'y' or 'z', or None for what the file says."

@@ -19,7 +19,7 @@ from scene2hap.scene import limits
 from scene2hap.scene.geometry import bounds_of, frozen
 from scene2hap.scene.images import ObjectImages
 from scene2hap.scene.looks.appearance import Appearance
-from scene2hap.scene.pose import Pose
+from scene2hap.scene.pose import Pose, how_to_write
 from scene2hap.scene.shapes import DominantSurface, Geometry, MeshLike, geometry_of
 
 UpAxis = Literal["y", "z"]
@@ -137,7 +137,6 @@ class SceneObject:
     appearance: InstanceOf[Appearance] | None = field(default=None, compare=False, repr=False)
     images: InstanceOf[ObjectImages] | None = field(default=None, compare=False, repr=False)
     _CALL_HINT = "As in SceneObject('cup', pose=Pose((x, y, z)), geometry=Box((x, y, z)))."
-    is_measured_with_y_up = False  # no dataclass field: a copy with its own surface must not inherit it
 
     def __init__(
         self,
@@ -162,15 +161,16 @@ class SceneObject:
         if not isinstance(id, str):
             raise SceneError(f"id is {checks.represented(id)}; it must be a text, and every object has its own.")
         if not isinstance(self.name, str) or not isinstance(pose, Pose):
-            which, value, wanted = ("pose", pose, "a Pose") if isinstance(self.name, str) else ("name", name, "a text")
+            which, value, wanted = ("name", name, "a text")
+            if isinstance(self.name, str):
+                which, value, wanted = ("pose", pose, f"a Pose: {how_to_write(pose)}")
             raise SceneError(
                 f"{which} of object {checks.represented(id)} is {checks.described(value)}; it must be {wanted}. "
                 "Give what follows the id by name: SceneObject(id, pose=..., geometry=...)."
             )
         object.__setattr__(self, "geometry", geometry_of(geometry, f"object {checks.represented(id)}"))
         if surface is None:
-            object.__setattr__(self, "surface", measured_surface(self.geometry, pose, "y"))
-        object.__setattr__(self, "is_measured_with_y_up", surface is None)
+            object.__setattr__(self, "surface", _assumed(self.geometry, _up_of(pose, "y")))
         self.__post_init__()
 
     def __post_init__(self) -> None:
@@ -237,15 +237,23 @@ class SceneObject:
             )
         at = [checks.vector("point_m", point_m, "m", size=3, error=SceneError)]
         own, theirs = (tuple(pose.to_own(at)[0].tolist()) for pose in (self.pose, other.pose))
-        held = replace(self, hinge=Hinge(other.id, own, theirs))
-        object.__setattr__(held, "is_measured_with_y_up", self.is_measured_with_y_up)
-        return held
+        return replace(self, hinge=Hinge(other.id, own, theirs))
 
 
 def measured_surface(geometry: Geometry, pose: Pose, up_axis: UpAxis) -> DominantSurface:
     """Return the dominant surface of an object at this rotation, cached for equal meshes."""
-    up = pose.rotation[VERTICAL[up_axis]].round(6)
-    return _measured(geometry, tuple(up.tolist()))
+    return _measured(geometry, _up_of(pose, up_axis))
+
+
+def _up_of(pose: Pose, up_axis: UpAxis) -> tuple[float, ...]:
+    return tuple(pose.rotation[VERTICAL[up_axis]].round(6).tolist())
+
+
+@lru_cache(maxsize=256)
+def _assumed(geometry: Geometry, up: tuple[float, ...]) -> DominantSurface:
+    surface = replace(_measured(geometry, up))  # that one may be of a scene whose up axis is known
+    object.__setattr__(surface, "is_assumed", True)
+    return surface
 
 
 @lru_cache(maxsize=256)

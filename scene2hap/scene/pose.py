@@ -16,7 +16,7 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError
-from scene2hap.scene.geometry import frozen, vector
+from scene2hap.scene.geometry import Vector, frozen, vector
 
 # A quaternion this close to unit length is kept unchanged, so that JSON round trips are bit-identical. One shorter than
 # `LEAST_LENGTH` is no rotation.
@@ -194,13 +194,44 @@ class Pose:
             raise SceneError(f"matrix is not rigid: its shape is {m.shape}; it must be (4, 4) and finite.")
         r = m[:3, :3]
         if np.abs(r).max() > 2.0 or not np.allclose(r @ r.T, np.eye(3), atol=1e-6) or np.linalg.det(r) < 0:
-            raise SceneError("matrix is not rigid: bake its scale or mirroring into the mesh first.")
+            lengths = ", ".join(f"{math.hypot(*column):.4g}" for column in r.T.tolist())
+            raise SceneError(
+                f"matrix is not rigid: its columns have the lengths {lengths}, are not at right angles, or mirror. "
+                "Bake scale, shear and mirroring into the mesh first. A matrix that is only scaled is then made rigid "
+                "by matrix[:3, :3] /= np.linalg.norm(matrix[:3, :3], axis=0)."
+            )
         if np.abs(m[3] - (0.0, 0.0, 0.0, 1.0)).max() > _LAST_ROW:
             raise SceneError(
                 f"matrix has {tuple(m[3].tolist())} in its last row; it must be (0, 0, 0, 1), with the position [m] in "
                 "the last column. Give matrix.T if the position stands in the last row."
             )
         return cls(vector(m[:3, 3]), _quaternion(r))
+
+
+def in_world(own_m: Vector, pose: Pose) -> Vector:
+    """Return a point of an object's own frame in the world [m], as `Pose.to_world`, but quickly for a single point."""
+    (a, b, c), (u, v, w) = own_m, pose.position_m
+    if not (a or b or c):
+        return u, v, w
+    x, y, z, s = pose.rotation_xyzw
+    d, e, f = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
+    return u + a + s * d + y * f - z * e, v + b + s * e + z * d - x * f, w + c + s * f + x * e - y * d
+
+
+def in_own(point_m: Vector, pose: Pose) -> Vector:
+    """Return a point of the world in an object's own frame [m], as `Pose.to_own`, but quickly for a single point."""
+    (a, b, c), (u, v, w) = point_m, pose.position_m
+    a, b, c = a - u, b - v, c - w
+    x, y, z, s = pose.rotation_xyzw
+    d, e, f = 2 * (z * b - y * c), 2 * (x * c - z * a), 2 * (y * a - x * b)
+    return a + s * d + z * e - y * f, b + s * e + x * f - z * d, c + s * f + y * d - x * e
+
+
+def how_to_write(given: object) -> str:
+    """The words that say how to write something else as a Pose."""
+    if getattr(given, "shape", None) == (4, 4):
+        return "write Pose.from_matrix(matrix)"
+    return "write Pose(position_m), or Pose(position_m, rotation_xyzw) with w last"
 
 
 def _warn_of_length(rotation: Iterable[float], length: float) -> None:

@@ -164,8 +164,10 @@ def geometry_of(value: object, owner: str) -> Geometry:
     if isinstance(value, tuple | list) and len(value) == 2:
         return TriMesh(value[0], value[1])
     how = "is missing" if value is None else f"is {checks.described(value)}"
+    are_points = hasattr(value, "vertices") or isinstance(value, np.ndarray)
     raise SceneError(
         f"geometry of {owner} {how}; it must be a Box((x, y, z)) of edges [m], a TriMesh, or (vertices_m, faces)."
+        + " Points have no surface; their hull is trimesh.PointCloud(points_m).convex_hull." * are_points
     )
 
 
@@ -188,6 +190,7 @@ class DominantSurface:
     thickness_m: float
     flags: tuple[SurfaceFlag, ...] = ()
     outline: Outline | None = None
+    is_assumed = False  # measured with y up, before the scene is known; no dataclass field, so that it is not stored
 
     def __post_init__(self) -> None:
         if not isinstance(self.pose, Pose):

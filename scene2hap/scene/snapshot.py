@@ -126,7 +126,7 @@ class SceneSnapshot(SceneData):
         turned = []
         for item in objects:
             _require_object(item)
-            if up_axis != "y" and item.is_measured_with_y_up:
+            if up_axis != "y" and item.surface.is_assumed:
                 item = replace(item, surface=measured_surface(item.geometry, item.pose, up_axis))
             turned.append(as_copy(item) if not item.instance_key and item.appearance is None else item)
         if contacts is not None:

@@ -18,7 +18,7 @@ from scene2hap.devices.protocol import ActuatorSink
 from scene2hap.errors import BundleError, ConfigError, SceneError, SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.objects import Contact, SceneObject
-from scene2hap.scene.pose import Pose
+from scene2hap.scene.pose import Pose, how_to_write
 from scene2hap.session.frame import Touch, require_hand, unknown_hand
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.impacts.felt_impacts import KNOCK_M_S, Strike
@@ -161,11 +161,7 @@ def require_pose(object_id: str, pose: object) -> None:
     """Require a Pose. Raises: SceneError: another type; the message says how to write it as a Pose."""
     if isinstance(pose, Pose):
         return
-    how = "write Pose(position_m), or Pose(position_m, rotation_xyzw) with w last"
-    if isinstance(pose, SceneObject):
-        how = "write its .pose"
-    elif getattr(pose, "shape", None) == (4, 4):
-        how = "write Pose.from_matrix(matrix)"
+    how = "write its .pose" if isinstance(pose, SceneObject) else how_to_write(pose)
     raise SceneError(f"the pose of {object_id!r} is {checks.represented(pose)}; it must be a Pose: {how}.")
 
 

@@ -28,6 +28,8 @@ MAX_GAIN_DB = 120.0
 
 def _bands(value: object) -> object:
     named = {"dominant": Bands.dominant, "around": lambda: AROUND, "third-octaves": Bands.third_octaves}
+    if isinstance(value, Mapping) and value.keys() == {"kind"}:  # as other parts are chosen
+        value = value["kind"]
     if isinstance(value, Bands | Mapping):
         return value
     if isinstance(value, str) and value in named:

@@ -25,6 +25,7 @@ from scene2hap import (
     SceneObject,
     SceneSnapshot,
     Touch,
+    bake_object,
 )
 from scene2hap.common.warning import SceneWarning
 from scene2hap.engines import EngineAdapter, EngineLink, MuJoCoLink, Panda3DLink
@@ -328,6 +329,31 @@ def test_a_node_out_of_the_graph_stays_where_it_was() -> None:
     phone.reparent_to(render)
     link.update()
     assert session.snapshot.object(phone_id).pose.position_m[2] == pytest.approx(before.position_m[2] - 1.0, abs=1e-6)
+
+
+def test_a_node_that_came_later_is_followed() -> None:
+    render, scene = panda3d_engine()
+    from scene2hap.scene.engines.panda3d import snapshot
+
+    session = HapticSession(scene, baked(scene))
+    link = Panda3DLink(render, session)
+    fan = render.attach_new_node("fan")
+    fan.set_pos(0.3, 0.2, 0.9)
+    for turn in (0, 90):  # two blades in one model, which a collider is part of
+        blade = render.find("**/smartphone").copy_to(fan.attach_new_node(f"blade {turn}"))
+        blade.set_h(turn)
+    hit = fan.attach_new_node("collider")
+    item = snapshot(fan, group=1).objects[0]
+    session.spawn(bake_object(item, up_axis="z"), "fan_17", item.pose)
+    link.follow("fan_17", fan)
+    assert (item.id, link.object_id(fan), link.object_id(hit)) == ("fan", "fan_17", "fan_17")
+    fan.set_x(-0.1)
+    link.update()
+    assert session.poses["fan_17"].position_m == pytest.approx((-0.1, 0.2, 0.9), abs=1e-6)
+    with pytest.raises(SceneError, match=r"draws no triangles.*'lamp'"):
+        link.follow("lamp", render.attach_new_node("lamp"))
+    with pytest.raises(SceneError, match="must be a panda3d.core.NodePath"):
+        link.follow("lamp", "lamp")
 
 
 class Given:

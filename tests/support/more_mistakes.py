@@ -96,6 +96,7 @@ MORE_TOPICS: dict[str, tuple[Mistake, ...]] = {
         mistake("SceneSnapshot.build({'vase': new_object})", "dict", "list of SceneObject"),
         mistake("bake(new_object)", "SceneObject", "SceneSnapshot.build([object])"),
         mistake("SceneObject('vase', position=(0, 1, 0))", "'position'", "pose=Pose((x, y, z))"),
+        mistake("SceneObject('vase', pose=np.eye(4), geometry=Box((1, 1, 1)))", "ndarray", "Pose.from_matrix(matrix)"),
         warned(
             "bake(SceneSnapshot.build([SceneObject('phone', geometry=Box((0.1, 0.1, 0.1)), mass_kg=190)]))",
             "190 kg",
@@ -144,6 +145,9 @@ MORE_TOPICS: dict[str, tuple[Mistake, ...]] = {
         mistake("Pose.from_yaw((0, 0, 0), yaw_deg=90)", "yaw_deg", "'yaw_rad'"),
         mistake("m = np.eye(4)\nm[3, :3] = (1, 2, 3)\nPose.from_matrix(m)", "last row", "matrix.T"),
         mistake("Pose.from_matrix(2 * np.eye(4))", "scale"),
+        mistake("Pose.from_matrix(np.diag((2, 1, 0.5, 1)))", "lengths 2, 1, 0.5", "scale"),
+        works("m = np.diag((2, 1, 0.5, 1)); m[:3, :3] /= np.linalg.norm(m[:3, :3], axis=0); Pose.from_matrix(m)"),
+        mistake("SceneObject('scan', geometry=np.ones((9, 3)))", "ndarray", "convex_hull"),
         mistake("Pose().compose((1, 2, 3))", "(1, 2, 3)", "Pose"),
         works("assert Pose(np.zeros(3, np.float32)) == Pose()"),
         warned("session.update({'mug': Pose((1.2, 0.8, 0.4), (1, 0, 0, 0))})", "begin with w", "from_wxyz"),

@@ -46,7 +46,7 @@ from scene2hap.scene.engines.mujoco_joints import hinges
 from scene2hap.scene.grouping.empty_names import says_nothing
 from scene2hap.scene.grouping.groups import Group, group_objects, unique_ids
 from scene2hap.scene.grouping.object_maker import ObjectMaker
-from scene2hap.scene.objects import Contact, Hinge, with_relative_heights
+from scene2hap.scene.objects import Contact, with_relative_heights
 from scene2hap.scene.plausibility.units import metres_per_unit, warn_if_implausible
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -117,8 +117,7 @@ def snapshot(
     of_body = {item.body: made for item, made in zip(items.all, objects, strict=True) if item.body != _WORLD}
     held = hinges(model, data, of_body, metres)
     objects = [replace(made, hinge=held.get(made.id)) for made in objects]
-    items.hinges = tuple((row, held[x]) for row, x in enumerate(items.ids) if x in held)
-    touching = None if contacts is None else _contacts(model, data, contact_points(data), items, metres)
+    touching = None if contacts is None else _contacts(model, contact_points(data), items, metres)
     title = name or model.names[: model.names.index(b"\0")].decode("utf-8", "replace") or "mujoco"
     scene = SceneSnapshot(title, "z", with_relative_heights(objects, "z"), touching)
     if unit_m is None:
@@ -167,7 +166,7 @@ def contacts(
     unit_m = metres_per_unit(unit_m)
     _require(model, data)
     items = _layout(model, geom_groups)
-    return _contacts(model, data, contact_points(data) if points is None else points, items, unit_m)
+    return _contacts(model, contact_points(data) if points is None else points, items, unit_m)
 
 
 def geoms_below(model: Any, data: Any, body: str) -> NDArray[np.bool_]:
@@ -282,7 +281,7 @@ def _require(model: Any, data: Any) -> None:
         raise SceneError(
             f"model is a {type(model).__name__} and data a {type(data).__name__}; they must be mujoco.MjModel and "
             "mujoco.MjData. Wrappers keep them inside (dm_control: physics.model.ptr, physics.data.ptr; gymnasium: "
-            "env.unwrapped.model, env.unwrapped.data)."
+            "env.unwrapped.model, env.unwrapped.data; an MjSpec: spec.compile(); MJX: mjx.get_data(model, data))."
         )
     has, needs = (len(data.xpos), len(data.geom_xpos), len(data.qpos)), (model.nbody, model.ngeom, model.nq)
     if has != needs:
@@ -317,8 +316,6 @@ class _Items:
         self.bodies = np.array([item.body for item in items], dtype=np.intp)
         self.of_world = np.flatnonzero(self.bodies == _WORLD)
         self.geoms_of_world = np.array([self.all[row].geoms[0] for row in self.of_world.tolist()], dtype=np.intp)
-        # The hinges of the last snapshot, each with the row of its object.
-        self.hinges: tuple[tuple[int, Hinge], ...] = ()
         self._row_of_geom: NDArray[np.intp] | None = None
 
     def row_of_geom(self, model: Any) -> NDArray[np.intp]:
@@ -443,24 +440,16 @@ def _poses(model: Any, data: Any, items: _Items, unit_m: float) -> PoseTable:
     return PoseTable(items.ids, positions * unit_m, rotations)
 
 
-def _contacts(model: Any, data: Any, points: ContactPoints, items: _Items, unit_m: float) -> tuple[Contact, ...]:
-    """Return the engine's contacts between objects, and the pivots of hinges, where engines find no contacts.
-
-    Contacts with geoms that are not drawn are left out.
-    """
+def _contacts(model: Any, points: ContactPoints, items: _Items, unit_m: float) -> tuple[Contact, ...]:
+    """Return the engine's contacts between objects, without those with geoms that are not drawn."""
     # A deformable body has no geom. Its contacts have geom -1, which indexes the last entry.
     rows = items.row_of_geom(model)[points.geoms]
     kept = np.flatnonzero((rows >= 0).all(axis=1) & (rows[:, 0] != rows[:, 1]))
     places, normals = points.points[kept] * unit_m, points.normals[kept]
-    touching = [
+    return tuple(
         Contact(items.ids[a], items.ids[b], (x, y, z), (nx, ny, nz))
         for (a, b), (x, y, z), (nx, ny, nz) in zip(rows[kept].tolist(), places.tolist(), normals.tolist(), strict=True)
-    ]
-    for row, hinge in items.hinges:
-        body = items.bodies[row]
-        pivot_m = data.xpos[body] * unit_m + data.xmat[body].reshape(3, 3) @ hinge.point_m
-        touching.append(Contact(items.ids[row], hinge.to, pivot_m.tolist()))
-    return tuple(touching)
+    )
 
 
 @contextmanager

@@ -81,7 +81,8 @@ def _up_axis(core: Any) -> UpAxis:
 
 
 class PoseReader:
-    """Reader of the poses of the objects of `snapshot` with the same arguments. Nodes are looked up once.
+    """Reader of the poses of the objects of `snapshot` with the same arguments. Nodes are looked up once; `follow` adds
+    one that comes later.
 
     A node at rest costs almost nothing. Panda3D never changes a transform object, and the reader keeps the last one
     alive, so an equal address means an equal transform.
@@ -93,6 +94,19 @@ class PoseReader:
         self._nodes = {object_id: found.path for object_id, found in objects.items()}
         self._owners = {path: object_id for object_id, found in objects.items() for path in found.owned}
         self._last: dict[str, tuple[Any, Pose]] = {}
+
+    def follow(self, object_id: str, node: Any) -> None:
+        """Read the pose of an object from a node, as that of the one object of `snapshot(node, group=1)`.
+
+        Raises: SceneError: it is no NodePath, or draws no triangles.
+        """
+        found = _Graph.read(node).objects(1)
+        if not found:
+            raise SceneError(f"{node!r} draws no triangles; nothing of {object_id!r} can be touched.")
+        ((_, path, owned),) = found.values()
+        self._nodes[object_id] = path
+        self._owners.update(dict.fromkeys((node, *owned), object_id))
+        self._last.pop(object_id, None)
 
     def object_id(self, node: Any) -> str | None:
         """Return the id of the object that a NodePath or node belongs to, such as one that a ray hits; None if to none.

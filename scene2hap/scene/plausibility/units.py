@@ -45,6 +45,11 @@ _SAME_FACTOR = 1.25
 _DOUBT_ONE, _DOUBT_SEVERAL = 2.2, 1.5
 
 
+# A top that is lower than this share of its longest edge is a board without legs and without a floor, as simulations
+# have tables: its height says nothing (assumed).
+_BOARD = 0.1
+
+
 class _Evidence(NamedTuple):
     """Evidence of one named object: the factors between its size and the usual size, and the usual range."""
 
@@ -149,7 +154,8 @@ def _evidence_of(
         measured = top if known.is_top else edge
         # Prototypes of games use placeholder boxes: a cube, or one size for objects of two kinds.
         is_placeholder = len(kinds_of_shape[shape]) > 1 or (not known.is_top and len(set(shape)) == 1)
-        if measured > 0 and not is_placeholder:
+        is_board = known.is_top and measured < _BOARD * edge
+        if measured > 0 and not is_placeholder and not is_board:
             middle = float(np.sqrt(known.low_m * known.high_m))
             nearest = min(max(measured, known.low_m), known.high_m)
             one = _Evidence(middle / measured, nearest / measured, name, measured, known)

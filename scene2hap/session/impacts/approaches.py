@@ -14,7 +14,8 @@ from typing import NamedTuple
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
 from scene2hap.scene.geometry import Vector, cross, difference, dot
-from scene2hap.session.impacts.motion_track import STILL, in_world
+from scene2hap.scene.pose import in_world
+from scene2hap.session.impacts.motion_track import STILL
 from scene2hap.session.impacts.relative_motion import RelativeMotion
 from scene2hap.session.impacts.slams import RelativePoses, Slam
 

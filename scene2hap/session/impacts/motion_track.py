@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 
 from scene2hap.scene.geometry import Vector, dot
-from scene2hap.scene.pose import Pose
+from scene2hap.scene.pose import Pose, in_world
 
 WINDOW_S, MOST_STEPS = 0.05, 8
 """Time and number of steps over which a speed is measured."""
@@ -149,13 +149,3 @@ class MotionTrack:
                 break
             found = pose
         return found
-
-
-def in_world(own_m: Vector, pose: Pose) -> Vector:
-    """Return a point of an object's own frame in the world [m], as `Pose.to_world`, but quickly for a single point."""
-    (a, b, c), (u, v, w) = own_m, pose.position_m
-    if not (a or b or c):
-        return u, v, w
-    x, y, z, s = pose.rotation_xyzw
-    d, e, f = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
-    return u + a + s * d + y * f - z * e, v + b + s * e + z * d - x * f, w + c + s * f + x * e - y * d

@@ -6,7 +6,8 @@ import numpy as np
 
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.scene.geometry import Vector, difference, dot
-from scene2hap.session.impacts.motion_track import STILL, MotionTrack, in_world
+from scene2hap.scene.pose import in_own, in_world
+from scene2hap.session.impacts.motion_track import STILL, MotionTrack
 from scene2hap.session.impacts.slams import RelativePoses
 
 
@@ -63,6 +64,5 @@ class RelativeMotion:
         begin, end = track.pose_at(since), pose if until >= self.n_updates else track.pose_at(until)
         if begin.rotation_xyzw == end.rotation_xyzw == pose.rotation_xyzw:
             return difference(end.position_m, begin.position_m)
-        own = pose.to_own([point_m])
-        x, y, z = (end.to_world(own) - begin.to_world(own))[0].tolist()
-        return x, y, z
+        own_m = in_own(point_m, pose)
+        return difference(in_world(own_m, end), in_world(own_m, begin))

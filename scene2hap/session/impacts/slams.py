@@ -25,7 +25,7 @@ from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.scene.geometry import Vector
 from scene2hap.scene.hinges import HINGE_PLAY_M
 from scene2hap.scene.objects import Hinge, SceneObject
-from scene2hap.scene.pose import Pose
+from scene2hap.scene.pose import Pose, in_own, in_world
 from scene2hap.scene.shapes import Box
 
 CLOSED_M = 0.005
@@ -84,7 +84,8 @@ def slam_of(item: SceneObject, hinge: Hinge, holder: SceneObject, way: RelativeP
     a hinge itself."""
     if holder.hinge is not None and way[0][1] != way[-1][1]:
         return None
-    if math.dist(_relative(way[-1]).to_world([hinge.point_m])[0], hinge.other_point_m) >= HINGE_PLAY_M:
+    pose, its = way[-1]
+    if math.dist(in_own(in_world(hinge.point_m, pose), its), hinge.other_point_m) >= HINGE_PLAY_M:
         return None
     return Slam(item, holder, way)
 
@@ -94,15 +95,21 @@ def is_closed(item: SceneObject, holder: SceneObject, way: RelativePoses, now: t
 
     Parameters: now : the poses after the step in which it stopped or turned, if that is no step of `way`.
     """
-    *_, before, last = (_relative(poses).position_m for poses in way)
-    travel_m = 0.0 if _relative(now).position_m == last else math.dist(before, last)
-    if math.dist(last, _relative((item.pose, holder.pose)).position_m) > CLOSED_M + travel_m:
+    authored, before, last, present = map(_place, ((item.pose, holder.pose), *way[-2:], now))
+    travel_m = 0.0 if present == last else math.dist(before, last)
+    if math.dist(last, authored) > CLOSED_M + travel_m:
         return False
     poses = way[-1]
     drawer, carcass = (
         Body("", shape_of(x.geometry.mesh), at, up_axis) for x, at in zip((item, holder), poses, strict=True)
     )
     return drawer.size_m < carcass.size_m and enclosed(drawer, carcass)[0] > 0
+
+
+def _place(poses: tuple[Pose, Pose]) -> Vector:
+    """Return the position of an object in the other's frame [m], as that of `_relative`, but quickly."""
+    pose, its = poses
+    return in_own(pose.position_m, its)
 
 
 def _relative(poses: tuple[Pose, Pose]) -> Pose:

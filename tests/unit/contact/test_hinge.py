@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from scene2hap import Box, ContactGraph, Hinge, Pose, SceneObject, SceneSnapshot
+from scene2hap import Box, Contact, ContactGraph, Hinge, Pose, SceneObject, SceneSnapshot
 from scene2hap.contact.finder import ContactFinder
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.errors import SceneError
@@ -240,3 +240,33 @@ def test_a_hinge_survives_json_and_new_poses() -> None:
     assert again.object("door").hinge == scene.object("door").hinge
     assert scene.with_poses({"door": turned_door(1.0)}).object("door").hinge is not None
     assert '"hinge"' not in SceneSnapshot.build(cabinet_and_door(hinge=False)).to_json()
+
+
+def test_hinges_hold_also_where_an_engine_gives_the_contacts() -> None:
+    cabinet, door, floor = cabinet_and_door()
+    on_floor = Contact("floor", "cabinet", (0.0, 0.0, 0.0))
+    scene = replace(SceneSnapshot.build([cabinet, door, floor]), contacts=(on_floor,))
+    graph = ContactGraph(scene)
+    at_pivot = {("cabinet", "door"): [PIVOT_M]}
+
+    def held() -> dict[tuple[str, str], list[tuple[float, ...]]]:
+        return {x: [tuple(np.round(p, 9)) for p in y.points_m] for x, y in graph.junctions.items() if "door" in x}
+
+    assert held() == at_pivot
+    graph.update({"door": turned_door(0.6)}, contacts=[on_floor])
+    assert held() == at_pivot
+    graph.update({"door": turned_door(0.9)})  # a frame without a report of the engine
+    assert held() == at_pivot
+    graph.update({"door": Pose((0.0, 1.0, 0.5))}, contacts=[on_floor])
+    assert held() == {}
+    change = graph.update({"door": door.pose})
+    assert (held(), change.appeared) == (at_pivot, {("cabinet", "door")})
+    graph.update({}, contacts=[Contact("door", "cabinet", (-0.3, 1.0, 0.2))])  # it is shut, and touches its frame
+    assert held() == {("cabinet", "door"): [(-0.3, 1.0, 0.2), PIVOT_M]}
+    graph.update({}, removed=["cabinet"])
+    assert held() == {}
+    graph.update({}, added=[cabinet])
+    assert held() == at_pivot
+    graph.update({}, removed=["door"])
+    graph.update({}, added=[replace(door, hinge=None)])
+    assert held() == {}

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import SceneError
-from scene2hap.scene.pose import Pose
+from scene2hap.scene.pose import Pose, in_own, in_world
 
 coordinates = st.floats(-100, 100)
 directions = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: math.hypot(*q) > 1e-3)
@@ -41,6 +41,14 @@ def test_rotation_is_that_of_scipy(pose: Pose) -> None:
 @settings(max_examples=50)
 def test_to_own_inverts_to_world(pose: Pose, points: list[tuple[float, float, float]]) -> None:
     np.testing.assert_allclose(pose.to_own(pose.to_world(points)), points, atol=1e-10)
+
+
+@given(poses, point_lists)
+@settings(max_examples=50)
+def test_single_points_are_those_of_arrays(pose: Pose, points: list[tuple[float, float, float]]) -> None:
+    for point in points:
+        np.testing.assert_allclose(in_world(point, pose), pose.to_world([point])[0], atol=1e-10)
+        np.testing.assert_allclose(in_own(point, pose), pose.to_own([point])[0], atol=1e-10)
 
 
 @given(poses, poses, point_lists)

@@ -71,6 +71,15 @@ def test_single_named_object_must_be_far_off_for_a_suggestion() -> None:
     assert suggestion(room(1.0, [("table", 1.4, 7.4)])) == 0.1
 
 
+def test_a_table_without_legs_and_floor_has_no_height() -> None:
+    board, thing = (
+        box("wooden table", (1.2, 0.04, 0.8), (0.0, 0.7, 0.0)),
+        box("thing", (0.1, 0.1, 0.1), (0.0, 0.77, 0.0)),
+    )
+    assert suggestion(scene(board, thing)) is None
+    assert suggestion(scene(board, box("floor", (4.0, 0.1, 4.0), (0.0, -6.0, 0.0)))) is not None  # 6.7 m above it
+
+
 def test_a_sky_around_the_scene_is_not_its_ground() -> None:
     """The bottom of a sky dome is kilometres below the feet of the furniture, whose sizes are right."""
     furnished = room(1.0, FURNITURE)
