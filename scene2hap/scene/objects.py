@@ -170,7 +170,7 @@ class SceneObject:
             )
         object.__setattr__(self, "geometry", geometry_of(geometry, f"object {checks.represented(id)}"))
         if surface is None:
-            object.__setattr__(self, "surface", _assumed(self.geometry, _up_of(pose, "y")))
+            object.__setattr__(self, "surface", _measured(self.geometry, _up_of(pose, "y"), is_assumed=True))
         self.__post_init__()
 
     def __post_init__(self) -> None:
@@ -249,15 +249,12 @@ def _up_of(pose: Pose, up_axis: UpAxis) -> tuple[float, ...]:
     return tuple(pose.rotation[VERTICAL[up_axis]].round(6).tolist())
 
 
-@lru_cache(maxsize=256)
-def _assumed(geometry: Geometry, up: tuple[float, ...]) -> DominantSurface:
-    surface = replace(_measured(geometry, up))  # that one may be of a scene whose up axis is known
-    object.__setattr__(surface, "is_assumed", True)
-    return surface
-
-
-@lru_cache(maxsize=256)
-def _measured(geometry: Geometry, up: tuple[float, ...]) -> DominantSurface:
+@lru_cache(maxsize=512)  # two for a mesh
+def _measured(geometry: Geometry, up: tuple[float, ...], *, is_assumed: bool = False) -> DominantSurface:
+    if is_assumed:
+        surface = replace(_measured(geometry, up))  # that one may be of a scene whose up axis is known
+        object.__setattr__(surface, "is_assumed", True)
+        return surface
     from scene2hap.scene.surface.dominant_surface import (
         dominant_surface,  # given or stored surfaces need no measurement
     )
