@@ -58,7 +58,9 @@ sys.exit(program.main())
 """
 
 
-def interrupted(*arguments: str, after_s: float = 0.2, with_children: bool = False) -> tuple[int, str]:
+def interrupted(
+    *arguments: str, after_s: float = 0.2, with_children: bool = False, by: signal.Signals = signal.SIGINT
+) -> tuple[int, str]:
     """Start Python, interrupt it some time after its first line of output, and return its status and errors.
 
     A terminal interrupts children as well.
@@ -71,7 +73,7 @@ def interrupted(*arguments: str, after_s: float = 0.2, with_children: bool = Fal
             assert process.stdout is not None
             process.stdout.readline()
             time.sleep(after_s)
-            (os.killpg if with_children else os.kill)(process.pid, signal.SIGINT)
+            (os.killpg if with_children else os.kill)(process.pid, by)
             _, errors = process.communicate(timeout=120)
         finally:
             process.kill()
@@ -83,6 +85,29 @@ def test_an_interrupt_ends_the_program_quietly(script: str) -> None:
     status, errors = interrupted("-c", script)
     assert status in ENDS
     assert errors == "scene2hap: interrupted.\n"
+
+
+def test_ctrl_break_of_windows_ends_the_program_as_sigterm_does() -> None:
+    """Python knows SIGBREAK on Windows alone, where another program can send no other signal."""
+    status, errors = interrupted(
+        "-c", "import signal; signal.SIGBREAK = signal.SIGUSR1\n" + IN_CALLBACK, by=signal.SIGUSR1
+    )
+    assert (status, errors) == (143, "scene2hap: interrupted.\n")
+
+
+AS_ON_WINDOWS = """import asyncio
+def lacks(*_):
+    raise NotImplementedError
+asyncio.SelectorEventLoop.add_signal_handler = lacks
+"""
+
+
+@pytest.mark.parametrize("system", ["", AS_ON_WINDOWS], ids=["posix", "windows"])
+@pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
+def test_a_bridge_ends_without_an_error(system: str, by: signal.Signals) -> None:
+    """Loops of Windows take no handlers of signals: Ctrl-C ended the bridge with status 130 and an error."""
+    program = system + WHOLE_PROGRAM.replace('print("ready", flush=True)\n', "")
+    assert interrupted("-c", program, "bridge", "--port", "0", by=by) == (0, "")
 
 
 @pytest.mark.parametrize("after_s", [0.1, 0.3, 0.6, 1.0, 2.0, 3.0])
