@@ -11,7 +11,9 @@ import threading
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
+import soundfile
 
 from batch_server import answered
 from foreground import IN_FOREGROUND
@@ -143,6 +145,35 @@ def test_worker_processes_end_quietly_with_the_program(tmp_path: Path) -> None:
     assert status in ENDS
     assert errors in ("scene2hap: interrupted.\n", "scene2hap: error: interrupted; no file was left incomplete.\n")
     assert not list(tmp_path.glob("out/kitchen_7.bundle"))
+
+
+CONVERSION_OF_ONE_FILE = """import sys
+from scene2hap.audio.conversion import batch
+import scene2hap.__main__ as program
+result = batch._result
+def said(*arguments):
+    print("ready", flush=True)
+    return result(*arguments)
+batch._result = said
+sys.exit(program.main())
+"""
+
+
+@pytest.mark.parametrize("with_children", [True, False], ids=["terminal", "kill"])
+def test_conversion_ends_with_the_files_that_it_has_made(with_children: bool, tmp_path: Path) -> None:
+    """The workers made all files that they had begun or were about to begin: up to five of the ten."""
+    noise = np.random.default_rng(1).uniform(-0.5, 0.5, 60 * 48000)
+    (tmp_path / "in").mkdir()
+    soundfile.write(tmp_path / "in" / "0.wav", noise, 48000)
+    for number in range(1, 10):
+        shutil.copy(tmp_path / "in" / "0.wav", tmp_path / "in" / f"{number}.wav")
+    command = ["convert", str(tmp_path / "in"), "-o", str(tmp_path / "out"), "--workers", "2"]
+    status, errors = interrupted("-c", CONVERSION_OF_ONE_FILE, *command, after_s=0.0, with_children=with_children)
+    assert status in ENDS
+    assert errors == "scene2hap: error: interrupted; no file was left incomplete.\n"
+    made = [path.name for path in (tmp_path / "out").iterdir()]
+    assert 1 <= len(made) <= 3  # each worker may end a file before the signal comes
+    assert not [name for name in made if name.startswith(".")]
 
 
 IN_BACKGROUND = """import os, signal, sys
