@@ -19,7 +19,9 @@ def read_json(folder: Path, name: str) -> dict[str, Any]:
     try:
         document = parse_json(data.decode("utf-8-sig"))  # Windows editors add a byte-order mark
     except (ValueError, RecursionError) as cause:  # ValueError: not UTF-8, not JSON, or a number of thousands of digits
-        raise BundleIncomplete(f"{folder / name} cannot be read: {cause}. Bake again, or mend the file.") from cause
+        raise BundleIncomplete(
+            f"{folder / name} cannot be read: {reason_of(cause)}. Bake again, or mend the file."
+        ) from cause
     if not isinstance(document, dict):
         raise BundleError(f"{folder / name} must hold a JSON object.")
     return document
