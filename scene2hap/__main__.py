@@ -3,18 +3,19 @@
 import signal
 import sys
 import threading
-from _thread import interrupt_main
 from types import FrameType
 
 INTERRUPTED = 130
 """Exit status of an interrupted program: 128 and the number of the signal, as shells report it."""
 TERMINATED = 143
-"""Exit status of a program that SIGTERM ended: `kill`, a service manager, a container or a batch system."""
+"""Exit status of a program that one of `_ENDS` ended: `kill`, a service manager, a container or a batch system."""
+_ENDS = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGBREAK") if hasattr(signal, name))
+"""Requests to end: SIGTERM, and on Windows Ctrl-Break, the only one that a program there can send to another."""
 _AGAIN_S = 0.05
 
 
 def main() -> int:
-    """Run the command line. Ctrl-C or SIGTERM ends it at any time with status 130 or 143 and without a traceback."""
+    """Run the command line. Ctrl-C or one of `_ENDS` ends it at any time with status 130 or 143, no traceback."""
     sys.unraisablehook = _interrupt_again
     terminations: list[int] = []
 
@@ -28,7 +29,8 @@ def main() -> int:
         # A shell lets its background processes ignore Ctrl-C. It stays without effect there, but has a handler.
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         signal.signal(signal.SIGINT, signal.default_int_handler)
-    signal.signal(signal.SIGTERM, interrupt)
+    for number in _ENDS:
+        signal.signal(number, interrupt)
     try:
         # Imported here, since an interrupt may come during imports, which take a second.
         from scene2hap.cli import main as run
@@ -39,8 +41,8 @@ def main() -> int:
         status = INTERRUPTED
     finally:
         # Python would print a traceback for an interrupt while it exits.
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        for number in (signal.SIGINT, *_ENDS):
+            signal.signal(number, signal.SIG_DFL)
     return TERMINATED if terminations and status == INTERRUPTED else status
 
 
@@ -56,10 +58,10 @@ def _interrupt_again(unraisable: "sys.UnraisableHookArgs") -> None:
 
 
 def _interrupt_main_thread() -> None:
+    # Unlike `interrupt_main`, a signal ends a wait of the main thread.
     if sys.platform == "win32":
-        interrupt_main()
+        signal.raise_signal(signal.SIGINT)
     else:
-        # Unlike `interrupt_main`, a signal ends a wait of the main thread.
         signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
 
 

@@ -45,6 +45,8 @@ A message gives the value, its unit, the bound, and what to do next.
 from __future__ import annotations
 
 import errno
+import os
+import sys
 from dataclasses import FrozenInstanceError
 
 
@@ -243,12 +245,18 @@ _TO_DO_ON_WINDOWS = {
     206: "Give a shorter path.",  # ERROR_FILENAME_EXCED_RANGE
 }
 
+_LONGEST_PATH_ON_WINDOWS = 259
+"""Characters of a path, unless its registry allows more (documented as MAX_PATH, with the final zero)."""
+
 
 def unwritable(what: object, cause: OSError, otherwise: str = "Choose a folder that exists and is yours.") -> str:
     """Return the message for a file or folder that cannot be written: its name, the reason, and what to do.
 
-    Parameters: otherwise : what to do, unless the disk is full, the name is too long, or Windows says that a program
-    has the file open.
+    Parameters: otherwise : what to do, unless the disk is full, the name or path is too long, or Windows says that a
+    program has the file open.
     """
     to_do = _TO_DO_ON_WINDOWS.get(getattr(cause, "winerror", None) or 0) or _TO_DO.get(cause.errno or 0, otherwise)
+    n_characters = len(os.path.abspath(cause.filename)) if isinstance(cause.filename, str) else 0
+    if sys.platform == "win32" and isinstance(cause, FileNotFoundError) and n_characters > _LONGEST_PATH_ON_WINDOWS:
+        to_do = f"A path in it has {n_characters} characters; Windows allows {_LONGEST_PATH_ON_WINDOWS}. Shorten it."
     return f"{what} cannot be written: {reason_of(cause).removesuffix('.')}. {to_do}"

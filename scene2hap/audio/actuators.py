@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap.audio.clip import Samples
 from scene2hap.common import checks
 from scene2hap.common.calls import misfit
+from scene2hap.common.csv_tables import csv_reader, with_point
 from scene2hap.common.text_files import read_small_text
 from scene2hap.errors import ConfigError, reason_of
 from scene2hap.haptics import ActuatorProfile
@@ -70,8 +71,8 @@ def read_response_csv(path: str | Path) -> ActuatorProfile:
     """
     path = Path(path)
     try:
-        table = csv.reader(read_small_text(path).splitlines())
-        rows = [row for row in table if row and not row[0].lstrip().startswith("#")]
+        lines = [line for line in read_small_text(path).splitlines() if not line.lstrip().startswith("#")]
+        rows = [list(map(with_point, row)) for row in csv_reader("\n".join(lines)) if row]
     except (OSError, ValueError, csv.Error) as cause:
         raise ConfigError(
             f"{path} cannot be read: {reason_of(cause)}. Give a CSV file with columns Hz and dB."
@@ -92,8 +93,8 @@ def _point(path: Path, row: list[str]) -> tuple[float, float]:
         return float(row[0]), float(row[1])
     except (ValueError, IndexError) as cause:
         raise ConfigError(
-            f"{path} has a row {checks.represented(','.join(row))}; every row must be a frequency [Hz] and a level "
-            "[dB], with a comma between them and decimals after a point."
+            f"{path} has a row {checks.represented('; '.join(row))}; every row must be a frequency [Hz] and a level "
+            "[dB], separated by a comma, or by a semicolon or a tab if decimals follow a comma."
         ) from cause
 
 

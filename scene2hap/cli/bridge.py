@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import argparse
 import asyncio
+import contextlib
 import os
 import shlex
-import signal
 from pathlib import Path
 from typing import Any
 
@@ -60,22 +60,15 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     tables = read_settings(arguments.settings, "bridge", "bake", "session")
     own = tables.pop("bridge")
     server = BridgeServer(BridgeConfig.parse({**tables, **own}, **given), owns_process=True)
-    with warnings_to_clients():
+    with warnings_to_clients(), contextlib.suppress(KeyboardInterrupt):
         asyncio.run(_serve(server, console))
     return {"url": server.url}
 
 
 async def _serve(server: Any, console: Console) -> None:
-    ended = asyncio.Event()
-    loop = asyncio.get_running_loop()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        try:
-            loop.add_signal_handler(number, ended.set)
-        except NotImplementedError:  # on Windows, Ctrl-C raises an exception instead
-            break
     async with server.listening():
         console.say(f"{server.url} (Ctrl-C ends)")
-        await ended.wait()
+        await asyncio.Event().wait()  # until Ctrl-C or SIGTERM, by which asyncio cancels this coroutine
 
 
 def _check(command: str, console: Console) -> dict[str, Any]:

@@ -54,7 +54,8 @@ class SerialPort:
     def read(self, timeout_s: float) -> bytes:
         """Return the bytes that have arrived; wait at most `timeout_s` for a first byte. Raises: DeviceLost."""
         try:
-            self._port.timeout = timeout_s
+            if self._port.timeout != timeout_s:  # pyserial sends all settings to the driver again
+                self._port.timeout = timeout_s
             return self._port.read(max(1, self._port.in_waiting))
         except self._lost as cause:
             raise DeviceLost(f"{self.name} has gone: {_reason(cause)}. Plug it in again.") from cause

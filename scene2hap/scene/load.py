@@ -15,7 +15,7 @@ from scene2hap.common.calls import clear_call
 from scene2hap.common.counted import counted
 from scene2hap.common.printable import writable
 from scene2hap.common.warning import warn_of
-from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 from scene2hap.scene.files import HABITAT_SUFFIX, decoded, is_habitat, read_bytes, scene_stem, written_first
 from scene2hap.scene.grouping.collapsed import warn_of_collapsed, without_collapsed
@@ -188,7 +188,7 @@ def _from_json(path: Path, up_axis: UpAxis | None, unit_m: float | None, group: 
     try:
         text = read_bytes(path).decode("utf-8-sig")
     except UnicodeDecodeError as cause:
-        raise SceneFormatError(f"{path.name!r} is not text: {cause}.") from cause
+        raise SceneFormatError(f"{path.name!r} cannot be read: {reason_of(cause)}.") from cause
     return SceneSnapshot.from_json(text)
 
 

@@ -15,6 +15,7 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, PrivateAttr, T
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes
+from scene2hap.common.csv_tables import csv_reader, with_point
 from scene2hap.common.printable import parse_json
 from scene2hap.common.text_files import read_small_text
 from scene2hap.errors import SessionError, reason_of
@@ -203,13 +204,9 @@ def _place(location: tuple[int | str, ...]) -> str:
 
 
 def _from_csv(text: str) -> dict[str, Any]:
-    """Parse a CSV file with a row per step. Empty cells are left out. A row with only time_s ends the track.
-
-    Programs of countries that write 0,5 separate the columns by semicolons or tabs.
-    """
+    """Parse a CSV file with a row per step. Empty cells are left out. A row with only time_s ends the track."""
     steps: list[dict[str, Any]] = []
-    lines = text.splitlines()
-    rows = csv.reader(lines, delimiter=max(",;\t", key=lines[0].count) if lines else ",")
+    rows = csv_reader(text)
     named = [name.strip() for name in next(rows, [])]
     if "time_s" not in named:
         near = [
@@ -230,7 +227,7 @@ def _from_csv(text: str) -> dict[str, Any]:
         cells = {name: cell.strip() for name, cell in zip(named, row, strict=False) if name and cell.strip()}
         if not cells:
             continue
-        cells = {name: cell if name in _NAMES else cell.replace(",", ".") for name, cell in cells.items()}
+        cells = {name: cell if name in _NAMES else with_point(cell) for name, cell in cells.items()}
         step: dict[str, Any] = {
             key: _TRUTH.get(value.lower(), value) for key, value in cells.items() if key not in _VECTOR_CELLS
         }

@@ -11,7 +11,9 @@ import threading
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
+import soundfile
 
 from batch_server import answered
 from foreground import IN_FOREGROUND
@@ -58,7 +60,9 @@ sys.exit(program.main())
 """
 
 
-def interrupted(*arguments: str, after_s: float = 0.2, with_children: bool = False) -> tuple[int, str]:
+def interrupted(
+    *arguments: str, after_s: float = 0.2, with_children: bool = False, by: signal.Signals = signal.SIGINT
+) -> tuple[int, str]:
     """Start Python, interrupt it some time after its first line of output, and return its status and errors.
 
     A terminal interrupts children as well.
@@ -71,7 +75,7 @@ def interrupted(*arguments: str, after_s: float = 0.2, with_children: bool = Fal
             assert process.stdout is not None
             process.stdout.readline()
             time.sleep(after_s)
-            (os.killpg if with_children else os.kill)(process.pid, signal.SIGINT)
+            (os.killpg if with_children else os.kill)(process.pid, by)
             _, errors = process.communicate(timeout=120)
         finally:
             process.kill()
@@ -83,6 +87,29 @@ def test_an_interrupt_ends_the_program_quietly(script: str) -> None:
     status, errors = interrupted("-c", script)
     assert status in ENDS
     assert errors == "scene2hap: interrupted.\n"
+
+
+def test_ctrl_break_of_windows_ends_the_program_as_sigterm_does() -> None:
+    """Python knows SIGBREAK on Windows alone, where another program can send no other signal."""
+    status, errors = interrupted(
+        "-c", "import signal; signal.SIGBREAK = signal.SIGUSR1\n" + IN_CALLBACK, by=signal.SIGUSR1
+    )
+    assert (status, errors) == (143, "scene2hap: interrupted.\n")
+
+
+AS_ON_WINDOWS = """import asyncio
+def lacks(*_):
+    raise NotImplementedError
+asyncio.SelectorEventLoop.add_signal_handler = lacks
+"""
+
+
+@pytest.mark.parametrize("system", ["", AS_ON_WINDOWS], ids=["posix", "windows"])
+@pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
+def test_a_bridge_ends_without_an_error(system: str, by: signal.Signals) -> None:
+    """Loops of Windows take no handlers of signals: Ctrl-C ended the bridge with status 130 and an error."""
+    program = system + WHOLE_PROGRAM.replace('print("ready", flush=True)\n', "")
+    assert interrupted("-c", program, "bridge", "--port", "0", by=by) == (0, "")
 
 
 @pytest.mark.parametrize("after_s", [0.1, 0.3, 0.6, 1.0, 2.0, 3.0])
@@ -118,6 +145,35 @@ def test_worker_processes_end_quietly_with_the_program(tmp_path: Path) -> None:
     assert status in ENDS
     assert errors in ("scene2hap: interrupted.\n", "scene2hap: error: interrupted; no file was left incomplete.\n")
     assert not list(tmp_path.glob("out/kitchen_7.bundle"))
+
+
+CONVERSION_OF_ONE_FILE = """import sys
+from scene2hap.audio.conversion import batch
+import scene2hap.__main__ as program
+result = batch._result
+def said(*arguments):
+    print("ready", flush=True)
+    return result(*arguments)
+batch._result = said
+sys.exit(program.main())
+"""
+
+
+@pytest.mark.parametrize("with_children", [True, False], ids=["terminal", "kill"])
+def test_conversion_ends_with_the_files_that_it_has_made(with_children: bool, tmp_path: Path) -> None:
+    """The workers made all files that they had begun or were about to begin: up to five of the ten."""
+    noise = np.random.default_rng(1).uniform(-0.5, 0.5, 60 * 48000)
+    (tmp_path / "in").mkdir()
+    soundfile.write(tmp_path / "in" / "0.wav", noise, 48000)
+    for number in range(1, 10):
+        shutil.copy(tmp_path / "in" / "0.wav", tmp_path / "in" / f"{number}.wav")
+    command = ["convert", str(tmp_path / "in"), "-o", str(tmp_path / "out"), "--workers", "2"]
+    status, errors = interrupted("-c", CONVERSION_OF_ONE_FILE, *command, after_s=0.0, with_children=with_children)
+    assert status in ENDS
+    assert errors == "scene2hap: error: interrupted; no file was left incomplete.\n"
+    made = [path.name for path in (tmp_path / "out").iterdir()]
+    assert 1 <= len(made) <= 3  # each worker may end a file before the signal comes
+    assert not [name for name in made if name.startswith(".")]
 
 
 IN_BACKGROUND = """import os, signal, sys

@@ -300,6 +300,21 @@ def test_port_in_use_is_reported(tmp_path: Path, events: list[SinkEvent]) -> Non
     assert "in use" in events[0].message
 
 
+def test_reads_do_not_set_the_port_up_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """pyserial sends all settings of a port at each new timeout; on Windows, USB chips get them, also the baud rate."""
+    import serial
+
+    set_ups: list[serial.Serial] = []
+    terminal = PseudoTerminal()
+    port = SerialPort(terminal.name, 921600)
+    monkeypatch.setattr(serial.Serial, "_reconfigure_port", lambda port: set_ups.append(port))
+    for _ in range(5):
+        port.read(0.001)
+    port.close()
+    terminal.close()
+    assert len(set_ups) == 1
+
+
 def test_unresponsive_port_is_reported(events: list[SinkEvent], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("scene2hap.devices.serial_amp.ANSWER_S", 0.2)
     terminal = PseudoTerminal()

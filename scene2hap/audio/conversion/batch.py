@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import os
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from concurrent.futures import Future
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from dataclasses import dataclass
@@ -19,8 +18,8 @@ from scene2hap.audio.files import READABLE, SUFFIXES
 from scene2hap.audio.haptic_loop import LevelWarning
 from scene2hap.audio.tactile import DEFAULT_CONVERTER
 from scene2hap.common.counted import first_of
-from scene2hap.common.interpreter import most_workers
 from scene2hap.common.text_files import drafts_of
+from scene2hap.common.worker_processes import as_finished, most_workers, worker_processes
 from scene2hap.errors import AudioError, Scene2HapError, unwritable
 
 _MOST_NAMED = 3
@@ -88,29 +87,35 @@ def _outcomes(
         for index, job in jobs.items():
             yield index, _convert(job, pictures, settings)
         return
-    # Each worker is a new interpreter: forking a process with threads (a progress bar) can deadlock.
-    pool = ProcessPoolExecutor(n_workers, mp_context=multiprocessing.get_context("spawn"))
+    left = dict(jobs)
     try:
-        running = {pool.submit(_convert, job, pictures, settings): index for index, job in jobs.items()}
-        for future in as_completed(running):
-            index = running[future]
-            yield index, _result(future, jobs[index])
+        with worker_processes(n_workers) as pool:
+            running = {pool.submit(_convert, job, pictures, settings): index for index, job in jobs.items()}
+            for future in as_finished(running):
+                index = running[future]
+                yield index, _result(future, left.pop(index))
     finally:
-        pool.shutdown(wait=True, cancel_futures=True)
+        for job in left.values():  # after an interrupt
+            _remove_drafts(job)
 
 
 def _result(future: Future[Conversion | Failure], job: _Job) -> Conversion | Failure:
     try:
         return future.result()
     except BrokenProcessPool:
-        with suppress(FileNotFoundError):  # it died before it made the folder
-            for litter in drafts_of(job.output):
-                litter.unlink(missing_ok=True)
+        _remove_drafts(job)
         return Failure(
             job.source,
             f"{job.source}: a process died while files were converted. Try with --workers 1; guard a script's entry "
             'with `if __name__ == "__main__":`.',
         )
+
+
+def _remove_drafts(job: _Job) -> None:
+    """Remove what a worker that died has begun to write."""
+    with suppress(FileNotFoundError):  # it died before it made the folder
+        for litter in drafts_of(job.output):
+            litter.unlink(missing_ok=True)
 
 
 def _convert(job: _Job, pictures: bool, settings: dict[str, Any]) -> Conversion | Failure:

@@ -13,6 +13,7 @@ from scene2hap.audio.files import SUFFIXES, read_clip
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES
 from scene2hap.audio.sources.word_stems import noun_phrase, says_nothing, stems
 from scene2hap.common import checks
+from scene2hap.common.csv_tables import csv_reader
 from scene2hap.common.text_files import read_small_text
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import AudioError, ConfigError, reason_of
@@ -84,20 +85,20 @@ class FolderLibrary:
             raise ConfigError(
                 f"{index}: cannot be read as UTF-8 text ({reason_of(cause)}). Save it as CSV in UTF-8."
             ) from cause
-        table = csv.DictReader(text.splitlines())
+        table = csv_reader(text)
         try:
-            rows = list(table)
+            named, *rows = [row for row in table if row] or [[]]
         except csv.Error as cause:  # a field of more than 131,072 characters
             raise ConfigError(f"{index}: cannot be read as CSV ({cause}). Shorten that field.") from cause
-        if "file" not in (table.fieldnames or ()):
+        if "file" not in named:
             raise ConfigError(
-                f"{index}: the first line is {checks.represented(table.fieldnames)}; it must name the columns, "
+                f"{index}: the first line is {checks.represented(named)}; it must name the columns, "
                 "at least 'file', separated by commas."
             )
         for row in rows:
-            # In a short row, the missing cells are None.
+            cells = dict(zip(named, row, strict=False))  # a short row lacks the last ones
             name, keywords, title, author, licence, address = (
-                (row.get(column) or "").strip()
+                cells.get(column, "").strip()
                 for column in ("file", "keywords", "title", "author", "licence", "address")
             )
             if name:

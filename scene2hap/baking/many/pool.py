@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-import multiprocessing
 import os
 import pickle
-import signal
 from collections.abc import Callable
 from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from functools import partial
@@ -14,7 +12,7 @@ from types import TracebackType
 from typing import Any, Protocol, TypeVar
 
 from scene2hap.common import checks
-from scene2hap.common.interpreter import most_workers
+from scene2hap.common.worker_processes import begin_workers, end_workers, most_workers
 from scene2hap.errors import ConfigError, MissingExtra
 
 Result = TypeVar("Result")
@@ -54,7 +52,7 @@ class Pool:
             kind, _, rest = executor.partition(":")
             if kind == "processes":
                 self.n_workers = _n_workers(rest)
-                self._own = self._begun(self.n_workers)
+                self._own = begin_workers(self.n_workers)
                 # A worker runs the program that starts it up to here, unless that is guarded. Python then refuses to
                 # start a worker of a worker; later, that worker would wait for the folders that this process locks.
                 self._own.submit(os.getpid)
@@ -82,14 +80,8 @@ class Pool:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         for pool in (self._own, self._alone):
-            if pool is None:
-                continue
-            # Python would wait for running tasks at its exit. They have begun nothing that costs money. Up to Python
-            # 3.13 no public call ends workers; `terminate_workers` of 3.14 reads the same attribute.
-            for worker in [] if error is None else list((pool._processes or {}).values()):
-                worker.terminate()
-            # Wait for the pool's own thread: if it closes its pipe while Python exits, that prints a traceback.
-            pool.shutdown(wait=True, cancel_futures=True)
+            if pool is not None:  # running tasks have begun nothing that costs money
+                end_workers(pool, at_once=error is not None)
         for close in self._close:
             close()
 
@@ -115,14 +107,14 @@ class Pool:
             except BrokenExecutor:
                 if self._own is pool:  # only the first of the failed tasks replaces the pool
                     pool.shutdown(wait=False, cancel_futures=True)
-                    self._own = self._begun(self.n_workers)
+                    self._own = begin_workers(self.n_workers)
         async with self._alone_turn:
             return await self._run_alone(task, n_threads, *args)
 
     async def _run_alone(self, task: Callable[..., Result], n_threads: int, *args: Any) -> Result:
         for _ in range(_TRIES):
             if self._alone is None:
-                self._alone = self._begun(1)
+                self._alone = begin_workers(1)
             try:
                 return await _awaited(self._alone.submit(task, n_threads, *args))
             except BrokenExecutor:
@@ -133,12 +125,6 @@ class Pool:
             "Use fewer workers, 'processes:1', or bake this scene alone to see why. Guard a script's entry with "
             '`if __name__ == "__main__":`.'
         )
-
-    def _begun(self, n_workers: int) -> ProcessPoolExecutor:
-        # Spawn, since fork would copy the threads and locks of this process. A terminal sends Ctrl-C to workers, too,
-        # each of which would print a traceback; this process ends them.
-        context, ignored = multiprocessing.get_context("spawn"), (signal.SIGINT, signal.SIG_IGN)
-        return ProcessPoolExecutor(n_workers, mp_context=context, initializer=signal.signal, initargs=ignored)
 
     def _of_dask(self, address: str) -> Submits:
         try:

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import pickle
 import tempfile
 from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from itertools import chain, groupby
 from pathlib import Path
 
-from scene2hap.common.interpreter import most_workers
+from scene2hap.common.worker_processes import WAIT_S, most_workers, worker_processes
 from scene2hap.errors import ConfigError
 from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.lazy_pictures import CaptureStats, LazyPictures
@@ -71,8 +70,6 @@ def _alone(pictures: LazyPictures, wanted: list[Shot]) -> Iterator[Shot]:
 
 def _shared(pictures: LazyPictures, wanted: list[Shot], others: int) -> Iterator[Shot]:
     """Render pictures in this process, which needs no start-up time, and in others."""
-    # Spawned processes are the same on every system, and inherit no thread that holds a lock.
-    context = multiprocessing.get_context("spawn")
     # All pictures of an object go to one process, so that its search tree is built once.
     portions = deque(list(group) for _, group in groupby(wanted, key=lambda shot: (shot.kind, shot.subject)))
     given: set[Future[list[tuple[Shot, bytes]]]] = set()
@@ -80,14 +77,14 @@ def _shared(pictures: LazyPictures, wanted: list[Shot], others: int) -> Iterator
         # The data goes through a file. With a pipe, this process would wait until the others have started and read it.
         with (
             _written((pictures.render_scene, pictures.config, pictures.factory, pictures.below)) as setting,
-            ProcessPoolExecutor(others, mp_context=context, initializer=_set_up, initargs=(setting,)) as pool,
+            worker_processes(others, _set_up, setting) as pool,
         ):
             while portions or given:
                 while portions and len(given) < _AHEAD * others:
                     given.add(pool.submit(_take, portions.popleft()))
                 if portions:
                     yield from _alone(pictures, portions.pop())
-                done, given = wait(given, timeout=0 if portions else None, return_when=FIRST_COMPLETED)
+                done, given = wait(given, timeout=0 if portions else WAIT_S, return_when=FIRST_COMPLETED)
                 for shot, picture in chain.from_iterable(future.result() for future in done):
                     pictures.keep(shot, picture)
                     yield shot

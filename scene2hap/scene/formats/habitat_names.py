@@ -16,13 +16,13 @@ Source: the tables of hssd/hssd-hab, as `MetadataInterface` of partnr-planner (h
 from __future__ import annotations
 
 import csv
-import io
 import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from scene2hap.common import checks
+from scene2hap.common.csv_tables import csv_reader
 from scene2hap.common.printable import writable
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError
@@ -108,7 +108,7 @@ def _csv(file: Path, columns: Sequence[str]) -> dict[str, str]:
     text = writable(decoded(data)).replace("\0", "")
     found: dict[str, str] = {}
     try:
-        rows = csv.reader(io.StringIO(text, newline=""))
+        rows = csv_reader(text)
         header = next(rows, [])
         keys, named = _columns(header, _KEYS), _columns(header, columns)
         if not keys or not named:

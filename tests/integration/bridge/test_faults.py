@@ -192,7 +192,7 @@ def test_client_that_does_not_read_is_disconnected(bridge: Bridge) -> None:
         session = player.play(bundle="desk.bundle", moving=[], frames="every")["session"]
         raw = socket.create_connection(("127.0.0.1", server.port))
         raw.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-        with connect(server.url, sock=raw, max_queue=1) as deaf:
+        with connect(server.url, sock=raw, max_queue=1, ping_interval=None) as deaf:
             deaf.send(hello())
             deaf.send(json.dumps({"type": "watch", "session": session}))
             assert eventually(lambda: any(one.client.watched for one in server.connections))

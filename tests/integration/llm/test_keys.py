@@ -73,7 +73,8 @@ def test_key_echoed_by_a_server_is_removed_everywhere(tmp_path: Path, caplog: py
             shown += [str(error), repr(error), repr(vars(error)), repr(error.__cause__)]
         shown += [ask(stack).text, repr(stack), repr(backend), repr(vars(backend)), str(backend.identity)]
     files = [path for path in tmp_path.rglob("*") if path.is_file()]
-    assert len(files) == 3  # a recording, an answer, and an empty lock file
+    # A recording and an answer. The empty lock file stays, but not on Windows.
+    assert len([path for path in files if path.suffix != ".lock"]) == 2
     shown += [path.read_text(encoding="utf-8") for path in files]
     shown.append(caplog.text)
     assert "httpcore" in caplog.text

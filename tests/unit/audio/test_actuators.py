@@ -65,6 +65,16 @@ def test_a_csv_file_is_read_with_or_without_a_heading(tmp_path: Path) -> None:
     assert read_response_csv(path).response_db == ((50.0, -6.0), (200.0, 3.0))
 
 
+@pytest.mark.parametrize("tab", [";", "\t"])
+@pytest.mark.parametrize("heading", ["", "# Messung, 20 °C\n", "Hz{tab}dB\n"])
+def test_a_csv_file_of_a_country_that_writes_decimals_after_a_comma(tmp_path: Path, heading: str, tab: str) -> None:
+    """As Excel saves it in Germany, with a byte-order mark and CRLF."""
+    path = tmp_path / "mine.csv"
+    text = f"{heading}50,5{{tab}}-6,25\n200{{tab}}3\n".format(tab=tab)
+    path.write_text(text, encoding="utf-8-sig", newline="\r\n")
+    assert read_response_csv(path).response_db == ((50.5, -6.25), (200.0, 3.0))
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
@@ -74,8 +84,7 @@ def test_a_csv_file_is_read_with_or_without_a_heading(tmp_path: Path) -> None:
         ("100,0\n50,-6\n200,-6\n", r"wrong\.csv: response_db has 50 Hz after 100 Hz"),
         ("0,0\n100,-6\n", r"wrong\.csv: response_db\[0\]\[0\] is 0 Hz"),
         ("kHz,dB\n0.04,-12\n0.8,0\n", r"wrong\.csv: max_frequency_hz is 0\.8 Hz.* in Hz, not in kHz"),
-        ("Hz;dB\n50;-6\n200;0\n", r"a row '50;-6'; .* a comma between them"),
-        ("50,5;-6,5\n200;0\n", r"a row '50,5;-6,5'; .* decimals after a point"),
+        ("Hz dB\n50 -6\n200 0\n", r"a row '50 -6'; .* separated by a comma, or by a semicolon or a tab"),
         ("50,0\n200\n", "must be a frequency"),
         ("50,0\n100,nan\n", "finite"),
     ],

@@ -37,6 +37,12 @@ def test_object_that_was_marked_as_silent_but_has_loops_brings_a_warning(folder:
         HapticBundle.load(folder)
 
 
+def test_file_that_an_editor_saved_in_a_code_page_is_refused(folder: Path) -> None:
+    (folder / "overrides.json").write_bytes('{"Küche": {}}'.encode("cp1252"))
+    with pytest.raises(BundleError, match=r"overrides\.json cannot be read: .* not UTF-8; save the text as UTF-8"):
+        HapticBundle.load(folder)
+
+
 @pytest.mark.parametrize("text", ['{"phone": {}, "phone": {}}', '{"phone": {"gain_db": -3, "gain_db": -6}}'])
 def test_key_that_is_given_twice_is_refused(folder: Path, text: str) -> None:
     (folder / "overrides.json").write_text(text)

@@ -1,5 +1,6 @@
 """Renames that Windows rejects as long as a program has a file open. Elsewhere its errors are simulated."""
 
+import errno
 import os
 import sys
 from pathlib import Path
@@ -92,6 +93,17 @@ def test_windows_rejects_the_replacement_of_an_open_file(tmp_path: Path) -> None
     assert "open" in unwritable("file", caught.value)
     renaming.replace(tmp_path / "draft", tmp_path / "file")
     assert (tmp_path / "file").read_text() == "new"
+
+
+@pytest.mark.parametrize(("n_characters", "step"), [(259, "Choose a folder"), (260, "A path in it has 260 characters")])
+def test_a_path_that_is_too_long_for_windows_is_called_so(
+    monkeypatch: pytest.MonkeyPatch, n_characters: int, step: str
+) -> None:
+    """Windows says that there is no such file."""
+    monkeypatch.setattr(sys, "platform", "win32")
+    path = os.path.abspath(os.sep).ljust(n_characters, "x")
+    cause = FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), path)
+    assert f"No such file or directory. {step}" in unwritable("room.bundle", cause)
 
 
 @pytest.mark.parametrize(

@@ -42,7 +42,7 @@ def test_axis_unit_and_grouping_are_refused_for_json(tmp_path: Path, options: di
 
 def test_binary_json_file_is_refused(tmp_path: Path) -> None:
     (tmp_path / "scene.json").write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(SceneFormatError, match="is not text"):
+    with pytest.raises(SceneFormatError, match="byte 0 is 0xff, which is not UTF-8; save the text as UTF-8"):
         load_scene(tmp_path / "scene.json")
 
 

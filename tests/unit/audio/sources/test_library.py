@@ -56,16 +56,17 @@ def test_library_returns_at_most_five_clips_in_a_fixed_order(tmp_path: Path) -> 
     assert titles(tmp_path, "pump", "pump pumping") == [f"pump_{letter}" for letter in "abcde"]
 
 
-def test_library_reads_keywords_and_credits_from_its_index(tmp_path: Path) -> None:
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_library_reads_keywords_and_credits_from_its_index(tmp_path: Path, separator: str) -> None:
     fill(tmp_path, "a.wav", "b.wav", "pump.wav")
-    (tmp_path / "sounds.csv").write_text(
+    table = (
         "\ufefffile,keywords,title,author,licence,address\n"
         "a.wav,pump bubbling,Aquarium,Ann,CC0-1.0,https://example.org/1\n"
         "\n"
         "b.wav,water pump\n"
-        ",pump,no file,,,\n",
-        encoding="utf-8",
+        ",pump,no file,,,\n"
     )
+    (tmp_path / "sounds.csv").write_text(table.replace(",", separator), encoding="utf-8")
     found = FolderLibrary(tmp_path).find(describe("pump", "pump bubbling"))
     assert [clip.credit for clip in found] == [
         Credit("Aquarium", "Ann", "CC0-1.0", "https://example.org/1", "pump bubbling", "library"),

@@ -395,9 +395,10 @@ def test_a_broken_table_of_the_dataset_costs_names_alone(dataset: Dataset) -> No
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
-def test_names_of_a_table_are_read_in_the_encodings_of_spreadsheets(dataset: Dataset, encoding: str) -> None:
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_names_of_a_table_are_read_as_spreadsheets_write_them(dataset: Dataset, encoding: str, separator: str) -> None:
     path = dataset.folder / "names.csv"
-    path.write_bytes(f"id,name\n{HASH},Spülmaschine\n".encode(encoding))
+    path.write_bytes(f"id{separator}name\n{HASH}{separator}Spülmaschine\n".encode(encoding))
     assert named(dataset.scene(instance(HASH)), names=path) == ["Spülmaschine"]
 
 

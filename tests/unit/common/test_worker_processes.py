@@ -5,7 +5,7 @@ from concurrent.futures import ProcessPoolExecutor
 
 import pytest
 
-from scene2hap.common.interpreter import most_workers
+from scene2hap.common.worker_processes import most_workers
 
 
 @pytest.mark.parametrize(("platform", "given"), [("win32", 61), ("linux", 128), ("darwin", 128)])
