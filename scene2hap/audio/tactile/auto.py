@@ -10,7 +10,7 @@ roughness, a tick by its time. The output has two parts, a bed for the continuou
   that component modulates the bed: y = bed (1 + r / 2e), with its waveform r and its envelope e.
 - If it is too high, as in a beep of 2 kHz, only its envelope is felt, on a carrier (`envelope`). A shifted band would
   lose the other notes of a melody.
-- Each short onset becomes a burst (`onsets`).
+- Each short onset becomes a burst (`bursts`).
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from scene2hap.audio.anchor.whole_sound import BAND_Q, CARRIER_RANGE_HZ, best_ca
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.spectra.heard import heard_sections
 from scene2hap.audio.tactile.adaptive import Adaptive, band_around
+from scene2hap.audio.tactile.bursts import WithBursts
 from scene2hap.audio.tactile.envelope import EnvelopeCarrier
 from scene2hap.audio.tactile.following import HEADROOM_DB, LevelFollower
-from scene2hap.audio.tactile.onsets import WithOnsets
 from scene2hap.audio.tactile.roughness import Roughened
 from scene2hap.audio.tactile.stages import Chain, Scaled, SosStage, Stage, StageStream, WholeSteps
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
@@ -67,8 +67,8 @@ class Auto(Adaptive):
         felt_hz = (context.target_hz or context.own_hz) if is_known else carrier_hz(context)
         rendered = None if is_known else _rendered(context.actuator, sample_rate_hz)
         bed = LevelFollower(bed, sample_rate_hz, bed_db, felt_hz, is_live=not is_known, rendered=rendered)
-        onsets = WithOnsets(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known, bed_db=context.band_db)
-        parts: list[Stage] = [WholeSteps(onsets.step), SosStage(heard_sections(sample_rate_hz)), onsets]
+        with_bursts = WithBursts(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known, bed_db=context.band_db)
+        parts: list[Stage] = [WholeSteps(with_bursts.step), SosStage(heard_sections(sample_rate_hz)), with_bursts]
         if bed_db is None:
             return StageStream(*parts)
         return StageStream(*parts, Scaled(_ROOM if rendered is None else _ROOM * 10 ** (-HEADROOM_DB / 20)))
