@@ -12,7 +12,7 @@ without lines, the strongest bands of noise. If no component within 14 dB of the
   the strongest of all frequencies that are heard, if the best component in the range of touch is that much weaker.
 - Otherwise the component that comes nearest to the level keeps its frequency and is weaker than planned.
 
-A strongest line of 20 to 80 Hz that is not felt at its own frequency is kept as roughness, at its rate.
+A strongest line of 20 to 120 Hz that is not felt at its own frequency is kept as roughness, at its rate.
 
 If the pitch moves out of the band around the anchor, as that of an engine that revs, a band that holds the moving pitch
 is used (`moving_pitch`). The same rules apply to the middle of that band.
@@ -69,8 +69,9 @@ CARRIED_DB = 6.0
 """A component that is too high is shifted down if it is felt better there by more than this [dB]. Touch is 4 dB less
 sensitive at 350 Hz than at 250, 19 dB at 500, and feels nothing at 900. A component that is too low keeps its
 frequency, by which an engine is recognized."""
-ROUGH_HZ = (20.0, 80.0)
-"""Modulation rates that are felt as roughness, not as single pulses and not as another tone; the highest is assumed."""
+ROUGH_HZ = (20.0, 120.0)
+"""Modulation rates that are kept as roughness [Hz]: slower ones are felt as single pulses. Above some 80 Hz a
+modulation is faint, but a hum at twice the mains has no other trace on an actuator that does not play it (assumed)."""
 _SLOW_HZ = 60.0
 """Highest frequency of a component that is rather felt as roughness alone than as a tone that misses its level."""
 RANGE_HZ = (20.0, 1000.0)

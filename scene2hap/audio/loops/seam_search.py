@@ -35,6 +35,7 @@ Candidate = tuple[float, int, int]
 """Similarity [-], length and start [samples] of a seam."""
 
 MIN_CLIP_S = 0.1
+"""Shortest clip that can be looped [s] (assumed: a shorter loop is felt as a tone of its own, above 10 Hz)."""
 MAX_LOOP_S = 10.0
 """Longest loop [s], cut from the middle of a longer sound (assumed: a repetition after 10 s is not noticed)."""
 CROSSFADE_S = 0.2
@@ -42,12 +43,16 @@ CROSSFADE_S = 0.2
 20 Hz)."""
 
 _SHORTEST_SHARE = 0.5
-_EDGE_S = 0.02
-_EDGE_SHARE = 0.02
-"""Largest share of the sound that is skipped at either end, where filters settle and recordings are faded."""
+"""Shortest length that is searched, as a share of what lies behind a start [-] (assumed: a short loop repeats soon)."""
+_EDGE_S, _EDGE_SHARE = 0.02, 0.02
+"""Time [s] that is skipped at either end, where filters settle and recordings are faded; at most this share of the
+sound [-]. Assumed."""
 _N_STARTS = 12
+"""Starts of the first step, evenly in the first quarter of the sound (assumed)."""
 _FEWEST_SAMPLES = 16
+"""Fewest samples of a sound, and of its coarse copy, for which spectra of stretches exist."""
 _COARSE_HZ = 8000.0
+"""Sample rate of the first step [Hz]: above twice the frequencies at which most sounds have their energy (assumed)."""
 _N_REFINED = 96
 """Candidates of the second step. For a tone of 1 kHz at 16 kHz one length in twenty wraps within half a degree; the
 candidates must include some of these lengths."""

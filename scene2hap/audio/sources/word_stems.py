@@ -38,7 +38,6 @@ _SAME_THING = {
     "shaving machine": "shaver",
     "smartphone": "phone",
     "smart watch": "smartwatch",
-    "telephone": "phone",
     "television": "tv",
     "tooth brush": "toothbrush",
     "vacuum cleaner": "vacuum",

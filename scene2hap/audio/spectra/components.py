@@ -16,10 +16,13 @@ LINE_DB = 13.5
 """Least height of a line above the median of its surroundings [dB]. Five seconds of noise have 5000 bins up to 1 kHz.
 The highest exceeds the median by 11.3 dB on average, by 12 dB in one sound of eight, by 13.5 dB in one of 500."""
 _AROUND = 2.0 ** (1.0 / 3.0)
+"""Ratio of frequencies to which the surroundings of a line extend on either side: a third of an octave [-]."""
 _LOBES = 8.0
 """Least extent of a line's surroundings, in widths of the window's main lobe."""
 _APART = 2.0 ** (1.0 / 6.0)
+"""Least ratio of the frequencies of two components: a sixth of an octave, below what touch tells apart [-]."""
 _MOST = 8
+"""Most components of a sound (assumed)."""
 
 
 class Component(NamedTuple):

@@ -10,7 +10,7 @@ roughness, a tick by its time. The output has two parts, a bed for the continuou
   that component modulates the bed: y = bed (1 + r / 2e), with its waveform r and its envelope e.
 - If it is too high, as in a beep of 2 kHz, only its envelope is felt, on a carrier (`envelope`). A shifted band would
   lose the other notes of a melody.
-- Each short onset becomes a burst (`onsets`).
+- Each short onset becomes a burst (`bursts`).
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ from dataclasses import dataclass
 
 import scipy
 
-from scene2hap.audio.anchor.whole_sound import BAND_Q, CARRIER_RANGE_HZ, best_carrier_hz, is_beep
+from scene2hap.audio.anchor.whole_sound import BAND_Q, CARRIER_RANGE_HZ, HIGHEST_PEAK_DB, best_carrier_hz, is_beep
+from scene2hap.audio.levels import drive_db, sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.spectra.heard import heard_sections
 from scene2hap.audio.tactile.adaptive import Adaptive, band_around
+from scene2hap.audio.tactile.bursts import WithBursts
 from scene2hap.audio.tactile.envelope import EnvelopeCarrier
 from scene2hap.audio.tactile.following import HEADROOM_DB, LevelFollower
-from scene2hap.audio.tactile.onsets import WithOnsets
-from scene2hap.audio.tactile.roughness import Roughened
+from scene2hap.audio.tactile.motion import modulation_gain, motion, played_band
+from scene2hap.audio.tactile.roughness import DEPTH, LINE_Q, Roughened
 from scene2hap.audio.tactile.stages import Chain, Scaled, SosStage, Stage, StageStream, WholeSteps
-from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
-from scene2hap.haptics import ActuatorProfile
 
 _ROOM = 0.5
 """Gain if the bed has a given level relative to the whole sound. It leaves room for bursts, and for the first harmonic
@@ -57,18 +57,26 @@ class Auto(Adaptive):
         else:
             stages = [*super().stream(sample_rate_hz, context).stages]
         bed: Stage = Chain(stages)
-        if context.rough_hz is not None:
-            # If the rough component is also the own frequency, the bed's own band passes it.
-            is_own = context.rough_hz == context.own_hz
-            band = stages[0] if is_own else band_around(context.rough_hz, BAND_Q, sample_rate_hz)
-            bed = Roughened(stages, band, context.rough_hz, sample_rate_hz)
         is_known = context.own_hz is not None  # the whole sound was analysed, so this is no live stream
         bed_db = context.band_db if is_known else _LIVE_DB
-        felt_hz = (context.target_hz or context.own_hz) if is_known else carrier_hz(context)
-        rendered = None if is_known else _rendered(context.actuator, sample_rate_hz)
+        felt_hz = (context.target_hz or context.own_hz) if is_known else None
+        if felt_hz is None or not context.actuator.min_frequency_hz <= felt_hz <= context.actuator.max_frequency_hz:
+            felt_hz = carrier_hz(context)
+        rendered = motion(context.actuator, sample_rate_hz, is_compensated=is_known)
+        if rendered is not None and context.band_q is not None:
+            # A moving pitch leaves the band of a narrow actuator: there the sine stands for it.
+            bed = Chain([bed, played_band(context.actuator, sample_rate_hz)])
+        if rendered is not None and bed_db is not None:
+            # The level of the motion is that of the whole sound.
+            bed, bed_db = Chain([bed, Scaled(10 ** (-bed_db / 20))]), 0.0
         bed = LevelFollower(bed, sample_rate_hz, bed_db, felt_hz, is_live=not is_known, rendered=rendered)
-        onsets = WithOnsets(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known, bed_db=context.band_db)
-        parts: list[Stage] = [WholeSteps(onsets.step), SosStage(heard_sections(sample_rate_hz)), onsets]
+        if context.rough_hz is not None:
+            band, line = (band_around(context.rough_hz, q, sample_rate_hz) for q in (BAND_Q, LINE_Q))
+            depth = _drive_depth(context, felt_hz, context.rough_hz)
+            bed = Roughened(bed, band, line, context.rough_hz, sample_rate_hz, depth=depth)
+        share_db = bed_db if is_known else None
+        with_bursts = WithBursts(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known, bed_db=share_db)
+        parts: list[Stage] = [WholeSteps(with_bursts.step), SosStage(heard_sections(sample_rate_hz)), with_bursts]
         if bed_db is None:
             return StageStream(*parts)
         return StageStream(*parts, Scaled(_ROOM if rendered is None else _ROOM * 10 ** (-HEADROOM_DB / 20)))
@@ -82,15 +90,19 @@ def _beep_hz(context: ConversionContext) -> float | None:
 
 def carrier_hz(context: ConversionContext) -> float:
     """Return the frequency of bursts [Hz]: the source's target if that is in range, else the actuator's best."""
-    wanted = context.target_hz or context.own_hz
-    if wanted is not None and CARRIER_RANGE_HZ[0] <= wanted <= CARRIER_RANGE_HZ[1]:
-        return wanted
-    return best_carrier_hz(context.actuator)
+    wanted, actuator = context.target_hz or context.own_hz, context.actuator
+    low_hz, high_hz = CARRIER_RANGE_HZ
+    low_hz, high_hz = max(low_hz, actuator.min_frequency_hz), min(high_hz, actuator.max_frequency_hz)
+    return wanted if wanted is not None and low_hz <= wanted <= high_hz else best_carrier_hz(actuator)
 
 
-def _rendered(actuator: ActuatorProfile, sample_rate_hz: float) -> Stage | None:
-    """Return the motion of a resonant actuator for its drive; None without resonance, or with a measured response."""
-    if actuator.response_db or actuator.resonance_hz is None or actuator.q is None:
-        return None
-    q = min(max(actuator.q, 0.1), 100.0)
-    return SosStage(SvfBandpass(min(actuator.resonance_hz, 0.4 * sample_rate_hz), q).section(sample_rate_hz))
+def _drive_depth(context: ConversionContext, felt_hz: float, rough_hz: float) -> float:
+    """Return the depth of the drive's modulation, of which the actuator renders `DEPTH` [-].
+
+    A narrow actuator renders little of a fast modulation. Its drive is modulated deeper, as far as a sine of the
+    source's level leaves head-room.
+    """
+    level_db = sensation_level_db(context.intensity)
+    spare_db = HIGHEST_PEAK_DB - float(drive_db(felt_hz, level_db, context.actuator))
+    needed = DEPTH / modulation_gain(context.actuator, felt_hz, rough_hz)
+    return max(DEPTH, min(needed, 10 ** (spare_db / 20) - 1.0))

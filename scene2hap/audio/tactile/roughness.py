@@ -1,19 +1,23 @@
-"""Roughness: amplitude modulation of a bed (the continuous part of a vibration) by a low component of its sound."""
+"""Roughness: amplitude modulation of a bed (the continuous part of a vibration) by a low component of its sound.
+
+y = bed (1 + d r / e)      r: waveform of the component, e: its envelope, d: depth [-]
+"""
 
 from __future__ import annotations
-
-from collections.abc import Sequence
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from scene2hap.audio.tactile.stages import Chain, Signal, SosStage, Stage
+from scene2hap.audio.tactile.stages import Signal, SosStage, Stage
 from scene2hap.compiled import compiled
 
 DEPTH = 0.5
 """Depth of the modulation. It is felt as roughness (the least depth of a rhythm is 0.2, see `distinctness`). Its side
 bands are 12 dB below the bed, so that they do not dominate at frequencies to which touch is more sensitive."""
+LINE_Q = 6.0
+"""Quality of each of two band-passes in series that leave the rough component alone [-]: wide enough for the speed of
+an engine to waver by 5 %, narrow enough to leave out the next note but one."""
 NOTHING = 1e-6
 """Amplitude below which there is no component (-120 dB re full scale)."""
 _SLOWER = 4.0
@@ -21,20 +25,34 @@ _SLOWER = 4.0
 
 
 class Roughened(Stage):
-    """A bed of stages in series without latency, modulated by the output of a band-pass at `rough_hz`.
+    """A bed, modulated by the line at `rough_hz`, relative to the envelope of a wider band around it.
 
-    If the bed's first stage is this band-pass, it runs once for both.
+    Other notes in the band, as of music, hardly modulate the bed.
+    Parameters: depth : of the modulation, which may exceed 1 for an actuator that renders little of it [-].
     """
 
-    def __init__(self, bed: Sequence[Stage], band: Stage, rough_hz: float, sample_rate_hz: float) -> None:
-        self._band, self._is_shared = band, bed[0] is band
-        self._bed = Chain(bed[1:] if self._is_shared else bed)
+    def __init__(
+        self, bed: Stage, band: Stage, line: Stage, rough_hz: float, sample_rate_hz: float, *, depth: float = DEPTH
+    ) -> None:
+        self._bed, self._band, self._line, self._excess = bed, band, line, depth / DEPTH
         self._envelope = SosStage(scipy.signal.butter(2, rough_hz / _SLOWER, fs=sample_rate_hz, output="sos"))
+        self._waiting = np.empty((2, 0))  # low component and its envelope, as long as the bed is late
 
     def run(self, x: Signal) -> Signal:
-        """Return the modulated bed."""
-        low = self._band.run(x)
-        return modulated(self._bed.run(low if self._is_shared else x), low, self._envelope.run(np.abs(low)))
+        """Return the modulated bed, as late as the bed."""
+        mean = self._envelope.run(np.abs(self._band.run(x)))
+        self._waiting = np.concatenate([self._waiting, [self._line.run(x), mean]], axis=1)
+        return self._modulated(self._bed.run(x))
+
+    def rest(self) -> Signal:
+        """Return the last samples of the bed."""
+        return self._modulated(self._bed.rest())
+
+    def _modulated(self, bed: Signal) -> Signal:
+        low, mean = np.ascontiguousarray(self._waiting[:, : len(bed)])
+        self._waiting = self._waiting[:, len(bed) :]
+        rough = modulated(bed, low, mean)
+        return rough if self._excess == 1.0 else bed + self._excess * (rough - bed)
 
 
 @compiled

@@ -74,6 +74,21 @@ def buzzer(take: Take, *, pitch_hz: float, on_s: float = 0.0, off_s: float = 0.0
     return tone * np.convolve(gate, edge / edge.sum(), mode="same")
 
 
+def telephone_bell(
+    take: Take, *, ringing_hz: float = 25.0, case_hz: float = 230.0, on_s: float = 1.0, off_s: float = 4.0
+) -> Signal:
+    """An old telephone: a clapper that shakes the case at `ringing_hz`, since one of its two gongs is nearer.
+
+    The gongs ring far above the range of touch, the case at `case_hz`. Exchanges of Europe ring for one second in five
+    (from memory).
+    """
+    at = (np.arange(round(ringing_hz * DURATION_S)) + 0.5) / ringing_hz
+    strength = 1.0 * (at % (on_s + off_s) < on_s)
+    case = unit_peak(ringing(at, strength, take.about(case_hz), 0.008))
+    gongs = unit_peak(ringing(at, strength, take.about(1500.0), 0.05))
+    return case + 0.15 * (0.5 + take.drive) * gongs
+
+
 def music(take: Take, *, beats_per_minute: float = 120.0) -> Signal:
     """A loudspeaker that plays: a bass line of four notes, one per beat, and a drum under every second beat."""
     beat_s = 60.0 / beats_per_minute

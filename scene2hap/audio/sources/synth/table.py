@@ -9,7 +9,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from scene2hap.audio.sources.synth.events import blows, bubbles, buzzer, music
+from scene2hap.audio.sources.synth.events import blows, bubbles, buzzer, music, telephone_bell
 from scene2hap.audio.sources.synth.oscillating import (
     combustion,
     mains_hum,
@@ -89,6 +89,8 @@ _CRACKLING = Patch(
 # Drops strike a panel of a roof or a window at random, and each lets it ring.
 _RAIN = Patch(partial(bubbles, largest_hz=80.0, smallest_hz=300.0, per_second=450.0), (70.0, 330.0))
 _RINGING_PHONE = Patch(ringing_motor, (175.0, 190.0), is_steady=False)
+# The case rings at the multiples of 25 Hz around its pitch.
+_TELEPHONE = Patch(telephone_bell, (170.0, 290.0), is_steady=False)
 _VIBRATION = Patch(vibration_motor, (175.0, 190.0))
 # The escapement of a clockwork ticks four or five times a second.
 _TIMER = _strokes(4.5, 330.0, 0.015, click=0.6)
@@ -206,9 +208,14 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     # Its blades pass too slowly to be felt; its motor of many poles hums.
     ("ceiling fan", "", _HUM),
     ("handheld fan, hand fan, mini fan, usb fan, nail dryer", "", _fan(80.0, 3, 0.12)),
-    ("computer, laptop, server, console, projector", "", _COMPUTER),
+    ("computer, laptop, console, projector", "", _COMPUTER),
     ("computer fan, case fan", "", _CASE_FAN),
     ("workstation, gpu, network rack, mining rig, supercomputer", "", _COMPUTER),
+    # Flat cases need small fans of 9000 turns a minute (data sheets, from memory).
+    ("server, rack server, server rack", "", _fan(150.0, 5, 0.45, blade=0.3, flow=0.8)),
+    # A disc of 5400 turns a minute in a light case, and a drum of heads of 1500 (data sheets, from memory).
+    ("set top box, settop box, dvr, media player", "", _fan(90.0, 3, 0.25, blade=0.05, flow=0.1)),
+    ("vcr, video recorder, tape recorder, cassette deck", "", _geared(62.0, 25.0, 0.4, load=0.4)),
     ("hard drive, hard disk", "", _fan(120.0, 3, 0.15, blade=0.05, flow=0.1)),
     ("vacuum sealer", "", _PISTONS),
     # The nozzle flutters on a carpet.
@@ -218,6 +225,7 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("pressure washer", "", Patch(partial(pump, vanes=3), (138.0, 150.0), 0.6)),
     # small things
     ("phone, smartwatch, pager, tablet", "", _RINGING_PHONE),
+    ("telephone, rotary phone, landline, payphone, phone booth", "", _TELEPHONE),
     ("gamepad, controller, joystick", "", _shaker(48.0)),
     ("clock, watch", "", _TICK),
     # 120 beats a minute, the middle of its scale.

@@ -106,7 +106,8 @@ def test_tone_too_low_to_be_felt_is_rendered_as_roughness(
         ({"f30": 0.5}, "flat", 30.0, 250.0, 30.0),  # too weak as a tone, and slow enough for roughness
         ({"f80": 0.5}, "flat", 80.0, None, None),  # the actuator plays it, but weaker than requested
         ({"f70": 0.5}, "lra", 70.0, 175.0, 70.0),
-        ({"f90": 0.5}, "lra", 90.0, 175.0, None),  # too fast for roughness
+        ({"f100": 0.5}, "lra", 100.0, 175.0, 100.0),  # in an earlier version it left no trace
+        ({"f125": 0.5}, "lra", 125.0, 175.0, None),  # too fast for roughness
         ({"f50": 0.5, "f180": 0.05}, "lra", 50.0, 175.0, 50.0),  # a component 20 dB below is not the anchor
         ({"f50": 0.5, "f180": 0.2}, "lra", 180.0, None, 50.0),
         ({"f3000": 0.5}, "flat", 3000.0, 250.0, None),

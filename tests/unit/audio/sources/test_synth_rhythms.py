@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
+from scene2hap.audio.analysis import dominant_frequency_hz
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.distinctness import rhythm_hz
 from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
@@ -64,3 +67,22 @@ def test_chainsaw_changes_speed_and_loudness_together(seed: int) -> None:
     assert np.subtract(*np.percentile(level, (95, 5))) > 6.0
     loud = np.interp(np.arange(len(pitch)) * 0.25 + 0.125, (np.arange(len(level)) + 0.5) * 0.1, level)
     assert np.corrcoef(pitch, loud)[0, 1] > 0.5
+
+
+def test_a_telephone_rings_a_bell_for_one_second_in_five() -> None:
+    """In an earlier version it had the motor of a smartphone, at 182 Hz without a rate."""
+    clip = made("telephone", "ringing", 0)
+    loud = levels_db(clip) > levels_db(clip).max() - 20.0
+    assert loud.mean() == pytest.approx(0.2, abs=0.05)
+    ring = clip.samples[: int(0.9 * clip.sample_rate_hz)].astype(float)
+    assert rhythm_hz(ring, clip.sample_rate_hz) == pytest.approx(25.0, abs=1.2)
+    assert not np.array_equal(clip.samples, made("smartphone", "ringing", 0).samples)
+
+
+def test_machines_of_a_rack_are_told_apart_from_a_computer() -> None:
+    strongest = {
+        kind: dominant_frequency_hz(made(kind, "humming", 0).samples, 48_000)
+        for kind in ("computer", "server", "set-top box", "VCR")
+    }
+    hz = sorted(strongest.values())
+    assert min(high / low for low, high in pairwise(hz)) > 1.1, strongest

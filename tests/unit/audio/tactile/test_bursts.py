@@ -11,7 +11,7 @@ from scipy.signal import butter, sosfilt
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.auto import carrier_hz
-from scene2hap.audio.tactile.onsets import WithOnsets
+from scene2hap.audio.tactile.bursts import WithBursts
 from scene2hap.audio.tactile.stages import Signal, Stage
 from scene2hap.haptics import ActuatorProfile
 from sound_draws import recordings
@@ -34,7 +34,7 @@ class Silence(Stage):
 
 
 def bursts(sound: Signal, rate: int = RATE, *, bed_follows: bool = False) -> Signal:
-    stage = WithOnsets(Silence(), 200.0, rate, bed_follows=bed_follows)
+    stage = WithBursts(Silence(), 200.0, rate, bed_follows=bed_follows)
     return np.concatenate([stage.run(sound), stage.rest()])
 
 
@@ -169,7 +169,7 @@ def test_equal_strokes_over_a_weak_bed_are_about_equally_strong() -> None:
     times = np.arange(0.5, 9.5, 0.25)
     sound, strengths = ticks(times, 0.0, 0.4), []
     for weakest in (0.0003, 0.001, 0.002, 0.004):
-        stage = WithOnsets(Murmur(weakest), 200.0, RATE, bed_follows=True, bed_db=0.0)
+        stage = WithBursts(Murmur(weakest), 200.0, RATE, bed_follows=True, bed_db=0.0)
         felt = np.concatenate([stage.run(sound), stage.rest()])
         peaks = [np.abs(felt[round(at * RATE) : round((at + 0.03) * RATE)]).max() for at in times]
         strengths.append(20 * np.log10(peaks))
