@@ -20,7 +20,7 @@ _ORDER = 3
 """Order of the flanks of `played_band`: with 18 dB per octave, it delays a band of 100 Hz by some 10 ms."""
 _INSIDE = 1.1
 """Ratio by which the flanks begin inside the band, so that little is left at its edges, where the inverse ends
-abruptly [-]. With 1.06 and 1.1, a pitch of 60 to 240 Hz on `lra` grew in range by 6.1 and 4.4 dB, with 1 by 10."""
+abruptly [-]. With 1.06 and 1.1, a pitch of 60 to 240 Hz on `lra` grew in range by 6.3 and 4.6 dB, with 1 by 10."""
 _HIGHEST = 0.4
 """Highest frequency of a filter, as a share of the sample rate."""
 
