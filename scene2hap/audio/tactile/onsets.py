@@ -143,8 +143,8 @@ class OnsetDetector:
     def __init__(self, *, spares_sustained: bool) -> None:
         self._spares_sustained = spares_sustained
         self._n_measuring = LOOK + AFTER[1] if spares_sustained else LOOK
-        self.look = self._n_measuring + SPARED if spares_sustained else LOOK
-        self.n_decided = 0
+        self.look: int = self._n_measuring + SPARED if spares_sustained else LOOK
+        self.n_decided: int = 0
         self._steps = np.empty((2, 3, 0))  # energy, slow mean and recent maximum of sound and ticks
         self._shares = np.empty(0)  # of those of these steps that were searched for onsets
         self._found: deque[tuple[int, float, float]] = deque()  # onsets among them
