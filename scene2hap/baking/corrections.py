@@ -91,7 +91,7 @@ async def infer_corrected(
 ) -> Inference:
     """Infer a scene with the names and vibration of the overrides. See `infer_scene`.
 
-    `before` : earlier answers, which stay where nothing is known of the name that a person gave.
+    `before` : earlier answers; they stay for objects whose given name is unknown.
     An error that stops it has a note on the answers that the cache keeps (`__notes__`), since the same bake continues.
     Warns: BundleWarning: a name that a person gave is unknown.
     """
@@ -129,8 +129,8 @@ async def infer_corrected(
 def _named(object_id: str, haptics: ObjectHaptics, name: str, before: ObjectHaptics | None) -> ObjectHaptics:
     """Return the answer for the name that a person gave an object, with a note of it.
 
-    A name of which nothing is known does not replace an earlier answer: the object would fall silent.
-    Warns: BundleWarning: nothing is known of the name.
+    An unknown name does not replace an earlier answer, or the object would fall silent.
+    Warns: BundleWarning: the name is unknown.
     """
     if is_unknown(haptics.object_category):
         is_kept = before is not None and not is_unknown(before.object_category)

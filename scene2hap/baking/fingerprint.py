@@ -7,8 +7,8 @@ converter  kind and settings
 actuator   the profile
 intensity  of the state
 plan       the source's place among the others: frequencies and level
-loop       the tactile loop that was made, by which an edit of its file by hand is found
-corrections  a person's sound, intensity and pitch, for a warning if they are not baked yet; in other digests, too
+loop       the tactile loop that was made; shows that a person edited its file
+corrections  a person's sound, intensity and pitch; shows that a correction is not baked yet
 
 If `words` or `sources` differ, a sound is chosen again. If another digest differs, its loops are made again.
 """
