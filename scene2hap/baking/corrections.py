@@ -55,15 +55,20 @@ def overrides_of_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) 
     return {key: override for key, override in overrides.items() if key in known}
 
 
-def bundle_with_locked(folder: Path, overrides: Mapping[str, Override]) -> HapticBundle | None:
-    """Return the bundle in a folder, without its overrides, if a person has locked loops in it, None otherwise.
+def bundle_before(folder: Path, overrides: Mapping[str, Override]) -> HapticBundle | None:
+    """Return the bundle in a folder, without its overrides, from which a bake keeps loops; None if it cannot be read.
 
     Its overrides may be those of the next scene: a person renames objects in them before the scene is baked again.
-    Raises: BundleError.
+    Raises: BundleError: it cannot be read, and a person has locked loops in it.
     """
-    if not any(override.locked for override in overrides.values()):
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # about values that the bake replaces
+            return HapticBundle(**vars(read_bundle(folder, overrides={})))
+    except BundleError:
+        if any(override.locked for override in overrides.values()):
+            raise
         return None
-    return HapticBundle(**vars(read_bundle(folder, overrides={})))
 
 
 def readable_bundle(folder: Path) -> tuple[HapticBundle | None, str]:

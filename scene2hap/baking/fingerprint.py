@@ -7,7 +7,7 @@ converter  kind and settings
 actuator   the profile
 intensity  of the state
 plan       the source's place among the others: frequencies and level
-loop       the tactile loop that was made; shows that a person edited its file
+loop, audible  the tactile and the audible loop that were made; show that a person edited their files
 corrections  a person's sound, intensity and pitch; shows that a correction is not baked yet
 
 If `words` or `sources` differ, a sound is chosen again. If another digest differs, its loops are made again.
@@ -33,8 +33,8 @@ from scene2hap.haptics import ActuatorProfile, VibrationDescription
 OWN_CLIP = "own clip"
 """Replaces the digests of words and sources if a person gave the sound."""
 
-LOOP = "loop"
-"""Part of a fingerprint: the digest of the tactile loop."""
+LOOPS = {"loop": "tactile", "audible": "audible"}
+"""Parts of a fingerprint, and the loops of which they are the digests."""
 
 _MADE_BY = ("sound", "converter", "actuator", "intensity", "plan")
 _NO_FINGERPRINT = "no fingerprint"
@@ -86,9 +86,13 @@ def differences(earlier: Mapping[str, str], now: Mapping[str, str]) -> tuple[str
 
 
 def is_edited(loop: HapticLoop) -> bool:
-    """Return True if a person has changed the samples of a tactile loop since it was made."""
-    made = loop.fingerprint.get(LOOP)
-    return bool(made) and made != sound_digest(loop.tactile)
+    """Return True if a person has changed the samples of the tactile or the audible loop since they were made."""
+    return any(made != now for part, now in loop_digests(loop).items() if (made := loop.fingerprint.get(part)))
+
+
+def loop_digests(loop: HapticLoop) -> dict[str, str]:
+    """Return the digests of the loops themselves."""
+    return {part: sound_digest(getattr(loop, kind)) for part, kind in LOOPS.items()}
 
 
 def converter_settings(converter: object) -> dict[str, Any]:

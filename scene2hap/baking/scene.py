@@ -20,7 +20,7 @@ from scene2hap.baking.corrections import (
     overrides_of_scene,
     replace_vibration,
 )
-from scene2hap.baking.fingerprint import converter_settings
+from scene2hap.baking.fingerprint import converter_settings, is_edited
 from scene2hap.baking.likely_mistakes import (
     all_have_fingerprints,
     warn_of_scene,
@@ -70,7 +70,8 @@ def bake(
     progress : called with stage, step, number done and total number.
     on_report : receives the report of the inference: calls, skipped calls, tokens, errors of single objects.
     overrides : a person's corrections by id, for example of an earlier bundle; they replace inferred values.
-    earlier : a bundle of this scene; the states and loops of objects that `overrides` lock are taken from it.
+    earlier : a bundle of this scene; the states and loops of objects that `overrides` lock are taken from it, and loops
+        that a person edited by hand, unless they would now be made otherwise (with a warning).
 
     Raises: ConfigError; SceneError: more objects than a bundle may have (`scene.limits`); BackendError: inference
     failed; AudioError: no source has a sound for a vibrating object.
@@ -120,13 +121,17 @@ async def bake_inferred(
     earlier: HapticBundle | None = None,
 ) -> HapticBundle:
     """Make the loops of an inferred scene. Returns its bundle, as `bake` after inference. Raises: AudioError."""
-    locked, answers = EarlierLoops(), inferred
+    before_bake, answers = EarlierLoops(), inferred
     if earlier is not None:
-        loops = {key: loops for key, loops in earlier.loops.items() if key in overrides and overrides[key].locked}
-        locked = EarlierLoops(loops, earlier.choices)
-        kept = {key: replace_vibration(inferred[key], earlier.objects[key]) for key in loops if key in inferred}
+        locked = {key: states for key, states in earlier.loops.items() if overrides.get(key, NONE).locked}
+        edited = {
+            key: {name: loop for name, loop in states.items() if is_edited(loop)}
+            for key, states in earlier.loops.items()
+        }
+        before_bake = EarlierLoops(edited | locked, earlier.choices, any_source=False)
+        kept = {key: replace_vibration(inferred[key], earlier.objects[key]) for key in locked if key in inferred}
         inferred = {**inferred, **kept}
-    objects, sounds = await _make_loops(inferred, overrides, config, progress, locked, {})
+    objects, sounds = await _make_loops(inferred, overrides, config, progress, before_bake, {})
     warn_of_scene(scene, objects)
     warn_of_vain_corrections(objects, overrides)
     before = answers_before(with_recorded_times(answers, sounds.loops, {}), overrides, {})

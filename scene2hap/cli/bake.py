@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
-from scene2hap.baking.corrections import bundle_with_locked, readable_bundle
+from scene2hap.baking.corrections import bundle_before, readable_bundle
 from scene2hap.bundle.account import write_account
 from scene2hap.bundle.folder import read_overrides, write_edited
 from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
@@ -127,7 +127,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             progress=tell,
             on_report=accounts.append,
             overrides=overrides,
-            earlier=bundle_with_locked(target, overrides),
+            earlier=before or bundle_before(target, overrides),
         )
     kept = is_there and (before is None or is_other(before, bundle))
     folder = write_edited(bundle, target, before) if kept else bundle.save(target)
