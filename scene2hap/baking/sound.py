@@ -322,7 +322,7 @@ class _Maker:
         reasons = differences(part.earlier.fingerprint, fingerprint) if part.earlier is not None else _NEW
         if part.earlier is not None and (not reasons or _is_edited_beside_others(part, reasons)):
             # The loop itself may have been edited by hand, and stays.
-            fingerprint |= {name: made for name in LOOPS if (made := part.earlier.fingerprint.get(name))}
+            fingerprint |= {name: digest for name in LOOPS if (digest := part.earlier.fingerprint.get(name))}
             unchanged = dict(part.earlier.fingerprint) == fingerprint and runs_of(part.earlier) == part.runs
             return part.earlier if unchanged else _as_of(part, part.earlier, fingerprint), _UNCHANGED
         if key not in self._made:
@@ -377,11 +377,8 @@ def _own(clip: AudioClip) -> tuple[AudioClip, Runs]:
     """Return the steady part of a person's clip, as stored in a bundle, and its recorded start and stop."""
     if clip.is_vibration:
         return _prepared(clip), NO_RUNS
-    found = recorded_runs(clip.samples, clip.sample_rate_hz)
-    if found.start_up is None and found.wind_down is None:
-        return _prepared(clip), NO_RUNS
-    steady = replace(clip, samples=clip.samples[found.first : found.end])
-    return _prepared(steady), (found.start_up, found.wind_down)
+    found = recorded_runs(clip.samples, clip.sample_rate_hz, clip.loop)
+    return _prepared(clip.part(found.first, found.end)), (found.start_up, found.wind_down)
 
 
 def _prepared(clip: AudioClip) -> AudioClip:

@@ -287,7 +287,7 @@ def _override_rows(bundle: BundleContents, put: Callable[[str, bytes], None]) ->
             row[name] = asdict(row[name])
         if wish.clip is not None:
             name = f"sounds/{stems[object_id]}.override.wav"
-            put(name, encoded(wish.clip.samples, wish.clip.sample_rate_hz, path=Path(name)))
+            put(name, encoded(wish.clip.samples, wish.clip.sample_rate_hz, path=Path(name), loop=wish.clip.loop))
             row["clip"] = {"file": name, "credit": asdict(wish.clip.credit)}
             if wish.clip.is_vibration:
                 row["clip"]["is_vibration"] = True

@@ -216,6 +216,9 @@ def _edit_once(arguments: argparse.Namespace, config: BakeConfig, console: Conso
     for object_id, what, old, new in changes:
         console.say(f"{object_id}, {what}: {old} -> {new}")
     if remade:
+    if arguments.verb == "sound" and (clip := after.overrides[arguments.id].clip) is not None and clip.loop is not None:
+        first_s, end_s = (edge / clip.sample_rate_hz for edge in clip.loop)
+        console.say(f"the loop that {arguments.clip} marks is used, {first_s:.2f} to {end_s:.2f} s")
         rows = [
             (key, state, ", ".join(_IN_WORDS.get(one, one) for one in why))
             for key, states in remade.items()

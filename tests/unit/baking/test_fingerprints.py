@@ -429,3 +429,22 @@ def test_copies_are_synthesized_once(monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(asked) == 1
     loops = [loop for states in baked.loops.values() for loop in states.values()]
     assert len({id(loop.tactile) for loop in loops}) == 1
+
+
+def test_a_marked_loop_is_the_loop_and_stays_it_in_the_bundle(tmp_path: Path) -> None:
+    x = own_tone().samples
+    marked = AudioClip(x, RATE, Credit("mine", "me", "CC0"), loop=(4100, 12_000))
+    sounds = {"audio": Recordings(marked)}
+    for bundle in (bake(ROOM, sounds), rebake(bake(ROOM).override("desk_fan", clip=marked))):
+        loaded = HapticBundle.load(bundle.save(tmp_path / "b"))
+        audible = loaded.loops["desk_fan"]["on"].audible.samples
+        assert audible == pytest.approx(x[4100:12_000] * audible.max() / x.max(), abs=1e-5)
+        assert remade(loaded)[1] == {}
+        assert {key: dict(states) for key, states in loaded.loops.items()} == {
+            k: dict(s) for k, s in bundle.loops.items()
+        }
+        assert loaded.overrides == bundle.overrides
+    again = rebake(HapticBundle.load(bake(ROOM, sounds).save(tmp_path / "c")), {"actuator": "lra"})
+    assert_same_loops(again, bake(ROOM, sounds | {"actuator": "lra"}))
+    other = replace(marked, loop=(4000, 12_000))
+    assert set(remade(loaded.override("desk_fan", clip=other))[1]["desk_fan"]) == {"on"}
