@@ -272,7 +272,7 @@ def _read_objects(folder: Path, name: str, scene: SceneSnapshot) -> dict[str, Ob
     path = folder / name
     with _reading(path):
         answers = _with_named_materials(path, read_json(folder, name))
-        objects = _objects.validate_python(answers)
+        objects = _objects.validate_json(json.dumps(answers), strict=True)  # else true is taken for the number 1
         warn_of_unknown_fields(path, answers)
         _require_objects(objects, scene)
     return objects
