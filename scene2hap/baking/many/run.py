@@ -39,6 +39,7 @@ from scene2hap.bundle.folder import read_overrides
 from scene2hap.bundle.sounds import file_stem
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
+from scene2hap.common.printable import quoted
 from scene2hap.common.run_coroutine import run_waiting
 from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import ConfigError, unwritable
@@ -141,7 +142,7 @@ async def abake_many(
 def scene_paths(scenes: Iterable[str | os.PathLike[str]]) -> list[Path]:
     """Return the scene files as paths. Raises: ConfigError: the list is empty, or is a single path."""
     if isinstance(scenes, str | os.PathLike):
-        raise ConfigError(f"scenes is the path {str(scenes)!r}; give a list of paths, as sorted(Path(...).glob(...)).")
+        raise ConfigError(f"scenes is the path {quoted(scenes)}; give a list of paths, as sorted(Path(...).glob(...)).")
     paths = [checks.path(f"scenes[{i}]", scene, error=ConfigError) for i, scene in enumerate(scenes)]
     if not paths:
         raise ConfigError("scenes is empty; name at least one scene file.")
@@ -374,7 +375,7 @@ def _names(paths: list[Path]) -> dict[Path, str]:
     """
     twice = [path for path, n in Counter(paths).items() if n > 1]
     if twice:
-        raise ConfigError(f"scenes has {str(twice[0])!r} twice; give each scene once.")
+        raise ConfigError(f"scenes has {quoted(twice[0])} twice; give each scene once.")
     alike = Counter(file_stem(scene_stem(path)).casefold() for path in paths)
     return {
         path: stem if alike[(stem := file_stem(scene_stem(path))).casefold()] == 1 else f"{stem}-{_digest(path)}"

@@ -36,7 +36,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common import checks
-from scene2hap.common.printable import read_json, writable
+from scene2hap.common.printable import quoted, read_json, writable
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
@@ -183,7 +183,7 @@ class Dataset:
             known = [*index.names(), *map(_plain, self._all_below().names())]
             hint = checks.did_you_mean(_plain(name).rpartition("/")[2], known)
             raise SceneError(
-                f"{place} names the template {name!r}, which the dataset in {str(self.folder)!r} does not have. "
+                f"{place} names the template {name!r}, which the dataset in {quoted(self.folder)} does not have. "
                 f"{hint or self._advice(kind)}"
             )
         attributes, folder, written_in = self._attributes(kind, source)
@@ -192,7 +192,9 @@ class Dataset:
 
     def _advice(self, kind: Kind) -> str:
         if self._outside:
-            return f"{self._outside[0]} lies outside {str(self.root)!r}; give assets_root=<the folder that holds both>."
+            return (
+                f"{self._outside[0]} lies outside {quoted(self.root)}; give assets_root=<the folder that holds both>."
+            )
         return (
             f"It wants a file NAME{_CONFIG_SUFFIX[kind]} or NAME{_models(kind)[0]} there; give "
             "assets_root=<the dataset's folder>, and download the dataset whole."
@@ -305,7 +307,7 @@ class Dataset:
             raise SceneFormatError(f"{place} is {name!r}; models of these kinds are read: {kinds}.")
         if not _is_file(file):
             near = checks.near_files(file) or "Download the dataset with its models."
-            raise SceneError(f"{place} is {name!r}, but there is no file {str(file)!r}. {near}")
+            raise SceneError(f"{place} is {name!r}, but there is no file {quoted(file)}. {near}")
         return file
 
     # -- folders -----------------------------------------------------------------------------------------------------
@@ -491,7 +493,7 @@ def _resolved(path: Path) -> Path:
     try:
         return path.resolve()
     except (OSError, ValueError, RuntimeError) as cause:  # a zero byte, a cycle of links
-        raise SceneError(f"{str(path)!r} is no usable file name: {reason_of(cause)}.") from cause
+        raise SceneError(f"{quoted(path)} is no usable file name: {reason_of(cause)}.") from cause
 
 
 def _is_file(path: Path) -> bool:
