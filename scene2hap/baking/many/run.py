@@ -31,7 +31,7 @@ from filelock import AsyncFileLock
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.corrections import infer_corrected
 from scene2hap.baking.many.pool import Pool, Submits
-from scene2hap.baking.many.record import REPORT, WORK, Record, read_record, scene_digest, settings_digest, write_record
+from scene2hap.baking.many.record import REPORT, WORK, read_record, scene_digest, settings_digest, write_record
 from scene2hap.baking.many.report import ManyReport, SceneReport
 from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds, take_pictures
 from scene2hap.bundle import HapticBundle
@@ -233,17 +233,17 @@ class Run:
             return await self._baked(path)
 
     async def _baked(self, path: Path) -> SceneReport:
-        report, target = self._unmade(path), self._target(path)
+        report, target = self._unmade(path), self.target(path)
         try:
-            made_of, before = await self._state(path)
-            stage = before.get("stage")
-            if stage == "baked" and (target / "bundle.json").is_file():
+            made_of, stage = await self.state(path)
+            if stage == "baked":
                 await asyncio.to_thread(shutil.rmtree, self._draft(path), ignore_errors=True)  # of a killed run
+                before = read_record(self._record(path))
                 counts = {key: before[key] for key in _COUNTS if isinstance(before.get(key), int)}
                 return replace(report, outcome="kept", **counts)
             if is_remote(self.config.llm):
                 draft = self._draft(path)
-                if stage != "inferred" or not (draft / "bundle.json").is_file():
+                if stage != "inferred":
                     report = await self._drafted(path, made_of, await self._inferred(path, self.config.llm))
                 made = await self.pool.run(make_sounds, str(draft), str(target), self.for_workers, self._written(path))
             else:
@@ -265,17 +265,16 @@ class Run:
 
         Raises: as `load_scene` and `infer_corrected`.
         """
-        made_of, before = await self._state(path)
-        made_at = {"baked": self._target(path), "inferred": self._draft(path)}.get(before.get("stage", ""))
-        if made_at is not None and (made_at / "bundle.json").is_file():
+        made_of, stage = await self.state(path)
+        if stage:
             return True
         found = await self._inferred(path, backend)
         if is_whole():
             await self._drafted(path, made_of, found)
         return is_whole()
 
-    async def _state(self, path: Path) -> tuple[dict[str, str], Record]:
-        """Return the digests of a scene's inputs, and the record of its last bake; empty if the inputs have changed.
+    async def state(self, path: Path) -> tuple[dict[str, str], str]:
+        """Return the digests of a scene's inputs, and how far they are baked: "baked", "inferred" (a draft), or "".
 
         Raises: ConfigError: the bundle of its name is that of another scene file, which an earlier run has baked.
         """
@@ -284,11 +283,13 @@ class Run:
         other = Path(os.path.normpath(self.folder / place)) if isinstance(place, str) else path
         if path.is_file() and other.is_file() and not path.samefile(other):
             raise ConfigError(
-                f"{self._target(path)} is the bundle of {other}. Bake both scenes in one run, which gives them "
+                f"{self.target(path)} is the bundle of {other}. Bake both scenes in one run, which gives them "
                 "different names, or choose another folder."
             )
         made_of = {"scene": await asyncio.to_thread(scene_digest, path, self.options), "settings": self.settings}
-        return made_of, before if made_of.items() <= before.items() else {}
+        stage = str(before["stage"]) if made_of.items() <= before.items() else ""
+        made_at = {"baked": self.target(path), "inferred": self._draft(path)}.get(stage)
+        return made_of, stage if made_at is not None and (made_at / "bundle.json").is_file() else ""
 
     def _note(self, path: Path, made_of: Mapping[str, str], **facts: str | int) -> None:
         """Write the record of a scene. Raises: ConfigError: it cannot be written."""
@@ -307,7 +308,7 @@ class Run:
         scene = await asyncio.to_thread(load_scene, path, **self.options)
         read_s, begun = time.perf_counter() - begun, time.perf_counter()
         seen = await self._captured(path, scene) if self.pictures else scene
-        overrides = read_overrides(self._target(path))
+        overrides = read_overrides(self.target(path))
         found = await infer_corrected(
             seen, backend, self.config, overrides, user_prompt=self.user_prompt, limit=self.limit
         )
@@ -340,9 +341,10 @@ class Run:
         return self._work("all" if self.config.share_scenes else self.names[path], ".pictures")
 
     def _unmade(self, path: Path) -> SceneReport:
-        return SceneReport(str(path), str(self._target(path)), "failed")
+        return SceneReport(str(path), str(self.target(path)), "failed")
 
-    def _target(self, path: Path) -> Path:
+    def target(self, path: Path) -> Path:
+        """Return the folder of a scene's bundle."""
         return self.folder / f"{self.names[path]}.bundle"
 
     def _record(self, path: Path) -> Path:
