@@ -112,10 +112,10 @@ def _write(bundle: BundleContents, folder: Path, like: Path | None = None) -> No
     (folder / "sounds").mkdir()
     written: list[str] = []
 
-    def put(name: str, document: Any) -> None:
-        text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
+    def put(name: str, document: Any, written_as: Callable[..., str] = _indented) -> None:
+        text = written_as(document, ensure_ascii=False)
         if _SURROGATE.search(text):  # a name came from a file name that is not UTF-8
-            text = json.dumps(document, indent=1, allow_nan=False)
+            text = written_as(document, ensure_ascii=True)
         put_bytes(name, f"{text}\n".encode())
 
     def put_bytes(name: str, content: bytes) -> None:
@@ -139,9 +139,9 @@ def _write(bundle: BundleContents, folder: Path, like: Path | None = None) -> No
     put("scene.json", {"format": scene_json.FORMAT, "version": scene_json.VERSION, **scene})
     put("objects.json", _objects.dump_python(dict(bundle.objects), mode="json"))
     if bundle.inferred:
-        put("inferred.json", _objects.dump_python(dict(bundle.inferred), mode="json"))
+        put("inferred.json", _objects.dump_python(dict(bundle.inferred), mode="json"), _by_line)
     put("loops.json", write_loops(bundle, put_bytes))
-    put("overrides.json", _override_rows(bundle, put_bytes))
+    put("overrides.json", _override_rows(bundle, put_bytes), _by_line)
     owed = dict.fromkeys(replace(who, query="") for who in bundle.credits)  # two queries may find one sound
     lines = [f"{who.title}, by {who.author}, {who.licence}{', ' + who.address if who.address else ''}" for who in owed]
     text = "\n".join(["Sounds in this bundle, cut into loops and turned into vibration", *lines]) + "\n"
@@ -156,6 +156,16 @@ def _write(bundle: BundleContents, folder: Path, like: Path | None = None) -> No
             "files": written,
         },
     )
+
+
+def _indented(document: Any, *, ensure_ascii: bool) -> str:
+    return json.dumps(document, indent=1, ensure_ascii=ensure_ascii, allow_nan=False)
+
+
+def _by_line(rows: Mapping[str, Any], *, ensure_ascii: bool) -> str:
+    """Return JSON with one line for each object, since git merges lines: it would mix the fields of two objects."""
+    lines = [json.dumps({key: row}, ensure_ascii=ensure_ascii, allow_nan=False)[1:-1] for key, row in rows.items()]
+    return "{\n " + ",\n ".join(lines) + "\n}" if lines else "{}"
 
 
 def _linked(existing: Path, new: Path, content: bytes) -> bool:
