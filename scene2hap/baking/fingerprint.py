@@ -7,7 +7,7 @@ converter  kind and settings
 actuator   the profile
 intensity  of the state
 plan       the source's place among the others: frequencies and level
-loop, audible  the tactile and the audible loop that were made; show that a person edited their files
+loop, audible  the tactile and the audible loop that were made; show that a person edited them (`bundle.edited_loops`)
 corrections  a person's sound, intensity and pitch; shows that a correction is not baked yet
 
 If `words` or `sources` differ, a sound is chosen again. If another digest differs, its loops are made again.
@@ -25,16 +25,12 @@ from typing import Any
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.felt_loop import Plan
 from scene2hap.audio.files import sound_digest
-from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.baking.config import BakeConfig
 from scene2hap.haptics import ActuatorProfile, VibrationDescription
 
 OWN_CLIP = "own clip"
 """Replaces the digests of words and sources if a person gave the sound."""
-
-LOOPS = {"loop": "tactile", "audible": "audible"}
-"""Parts of a fingerprint, and the loops of which they are the digests."""
 
 _MADE_BY = ("sound", "converter", "actuator", "intensity", "plan")
 _NO_FINGERPRINT = "no fingerprint"
@@ -83,16 +79,6 @@ def differences(earlier: Mapping[str, str], now: Mapping[str, str]) -> tuple[str
         return (_NO_FINGERPRINT,)
     found = tuple(part for part in _MADE_BY if earlier.get(part) != now[part])
     return found[:-1] if len(found) > 1 and found[-1] == "plan" else found
-
-
-def is_edited(loop: HapticLoop) -> bool:
-    """Return True if a person has changed the samples of the tactile or the audible loop since they were made."""
-    return any(made != now for part, now in loop_digests(loop).items() if (made := loop.fingerprint.get(part)))
-
-
-def loop_digests(loop: HapticLoop) -> dict[str, str]:
-    """Return the digests of the loops themselves."""
-    return {part: sound_digest(getattr(loop, kind)) for part, kind in LOOPS.items()}
 
 
 def converter_settings(converter: object) -> dict[str, Any]:

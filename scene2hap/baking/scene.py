@@ -20,7 +20,7 @@ from scene2hap.baking.corrections import (
     overrides_of_scene,
     replace_vibration,
 )
-from scene2hap.baking.fingerprint import converter_settings, is_edited
+from scene2hap.baking.fingerprint import converter_settings
 from scene2hap.baking.likely_mistakes import (
     all_have_fingerprints,
     warn_of_scene,
@@ -31,6 +31,7 @@ from scene2hap.baking.recorded_times import with_recorded_times
 from scene2hap.baking.sound import EarlierLoops, Progress, Remade, Sounds, make_loops
 from scene2hap.bundle import HapticBundle, MadeWith, Override
 from scene2hap.bundle.arguments import given_bundle
+from scene2hap.bundle.edited_loops import is_edited
 from scene2hap.bundle.override import NONE, answers_before
 from scene2hap.bundle.pending_corrections import objects_without_states, renamed_objects
 from scene2hap.common import checks

@@ -25,18 +25,16 @@ from scene2hap.audio.select import Choice, explain_choice
 from scene2hap.audio.sources.chain import gather
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import (
-    LOOPS,
     OWN_CLIP,
     actuator_digest,
     converter_name,
     differences,
-    is_edited,
-    loop_digests,
     made_by,
     request_digests,
 )
 from scene2hap.baking.recorded_times import NO_RUNS, Runs, runs_of, shown_runs
 from scene2hap.bundle import BundleWarning, Override
+from scene2hap.bundle.edited_loops import LOOPS, is_edited, loop_digests
 from scene2hap.bundle.pending_corrections import CORRECTIONS, corrections_digest
 from scene2hap.common.blas_threads import one_blas_thread
 from scene2hap.common.counted import first_of

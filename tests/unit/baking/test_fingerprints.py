@@ -211,6 +211,18 @@ def test_an_edit_of_a_loop_by_hand_outlives_changes_of_other_sources(tmp_path: P
         rebake(edited.override("desk_fan", pitch_hz=130.0))
 
 
+def test_a_reset_takes_back_an_edit_of_a_loop_by_hand(tmp_path: Path) -> None:
+    made = bake(ROOM)
+    reset = bundle_with_halved_fan(tmp_path / "b", "tactile").reset("desk_fan")
+    loaded = HapticBundle.load(reset.save(tmp_path / "c"))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", BundleWarning)
+        again, told = remade(loaded)
+    assert told == {"desk_fan": {"on": ("sound",)}}
+    assert_same_loops(again, made)
+    assert made.reset("desk_fan") == made
+
+
 def bundle_with_halved_fan(folder: Path, kind: str) -> HapticBundle:
     """Bake the room, and halve the amplitude of a loop of the fan by hand."""
     file = bake(ROOM).save(folder) / "sounds" / f"desk_fan.on.{kind}.wav"
