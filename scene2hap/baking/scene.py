@@ -243,7 +243,9 @@ async def arebake(
     config = BakeConfig.parse(config)
     given, config = config.model_fields_set, _settings_of(bundle, config)
     for key in [key for key in bundle.inferred if bundle.overrides.get(key, NONE) == NONE]:
-        bundle = bundle.reset(key)  # its row was removed from the file
+        # Its row was removed from the file. Loops that were edited by hand stay: nobody has asked for others.
+        reset = bundle.reset(key)
+        bundle = replace(reset, loops={one: bundle.loops[one] for one in reset.loops})
     if isinstance(objects, str):
         raise ConfigError(f"objects is the text {objects!r}; give a list of ids, [{objects!r}].")
     whole = [*checks.items("objects", objects, error=ConfigError), *renamed_objects(bundle)]

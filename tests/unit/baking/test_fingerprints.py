@@ -223,6 +223,16 @@ def test_a_reset_takes_back_an_edit_of_a_loop_by_hand(tmp_path: Path) -> None:
     assert made.reset("desk_fan") == made
 
 
+def test_an_edit_of_a_loop_by_hand_outlives_a_row_that_is_removed(tmp_path: Path) -> None:
+    edited = bundle_with_halved_fan(tmp_path / "b", "tactile").override("desk_fan", gain_db=-3.0, mass_kg=2.0)
+    folder = edited.save(tmp_path / "c")
+    (folder / "overrides.json").write_text("{}")
+    again, told = remade(HapticBundle.load(folder))
+    assert told == {}
+    assert again.objects["desk_fan"].mass_kg != 2.0
+    assert again.loops["desk_fan"]["on"].tactile == edited.loops["desk_fan"]["on"].tactile
+
+
 def bundle_with_halved_fan(folder: Path, kind: str) -> HapticBundle:
     """Bake the room, and halve the amplitude of a loop of the fan by hand."""
     file = bake(ROOM).save(folder) / "sounds" / f"desk_fan.on.{kind}.wav"
