@@ -10,6 +10,7 @@ from pathlib import Path
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.sound import Progress, no_progress
 from scene2hap.bundle import BundleWarning, HapticBundle, Override
+from scene2hap.bundle.checking import require_savable
 from scene2hap.bundle.folder import read_bundle
 from scene2hap.bundle.pending_corrections import reason_of_name
 from scene2hap.common import checks
@@ -64,7 +65,9 @@ def bundle_before(folder: Path, overrides: Mapping[str, Override]) -> HapticBund
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about values that the bake replaces
-            return HapticBundle(**vars(read_bundle(folder, overrides={})))
+            found = HapticBundle(**vars(read_bundle(folder, overrides={})))
+        require_savable(found, folder)
+        return found
     except BundleError:
         if any(override.locked for override in overrides.values()):
             raise
@@ -72,11 +75,13 @@ def bundle_before(folder: Path, overrides: Mapping[str, Override]) -> HapticBund
 
 
 def readable_bundle(folder: Path) -> tuple[HapticBundle | None, str]:
-    """Return the bundle in a folder, or None and why there is none that can be read: a bake mends it."""
+    """Return the bundle in a folder, or None and why there is none that can be read and saved: a bake mends it."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about values that the bake replaces
-            return HapticBundle.load(folder), ""
+            found = HapticBundle.load(folder)
+        require_savable(found, folder)
+        return found, ""
     except BundleError as cause:
         return None, str(cause)
 
