@@ -24,6 +24,7 @@ from scene2hap.baking.many import ManyReport, bake_many, plan_many
 from scene2hap.cli.bake import add_model_arguments, add_scene_arguments, bake_settings, scene_options
 from scene2hap.cli.console import Console
 from scene2hap.common.counted import counted
+from scene2hap.common.printable import quoted
 from scene2hap.errors import ConfigError, SceneError
 from scene2hap.llm.wrappers import is_remote
 
@@ -125,7 +126,7 @@ def files(given: list[str]) -> list[str]:
     for one in given:
         matches = [one] if os.path.exists(one) or not glob.has_magic(one) else sorted(glob.glob(one, recursive=True))
         if not matches:
-            raise ConfigError(f"no file matches {one!r}. Check the pattern.")
+            raise ConfigError(f"no file matches {quoted(one)}. Check the pattern.")
         found += matches
     return list(dict.fromkeys(found))
 

@@ -45,7 +45,7 @@ def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
 
 def address(place: str, name: str) -> SceneError:
     """Return the error of a name that is an address."""
-    return SceneError(f"{place} wants {name!r}. Addresses are never fetched: store the file beside the scene.")
+    return SceneError(f"{place} wants {quoted(name)}. Addresses are never fetched: store the file beside the scene.")
 
 
 def outside(place: str, name: str, assets_root: Path, *paths: Path) -> SceneError:
@@ -59,8 +59,8 @@ def outside(place: str, name: str, assets_root: Path, *paths: Path) -> SceneErro
         nearest = Path(assets_root.anchor)
     needed = "<a folder that holds both>" if nearest == Path(nearest.anchor) else repr(str(nearest))
     return SceneError(
-        f"{place} wants {name!r}, which lies outside {quoted(assets_root)}; only files inside it are read. Copy it "
-        f"there, or, if you trust the file, give assets_root={needed} (--assets-root)."
+        f"{place} wants {quoted(name)}, which lies outside {quoted(assets_root)}; only files inside it are read. Copy "
+        f"it there, or, if you trust the file, give assets_root={needed} (--assets-root)."
     )
 
 
@@ -73,7 +73,7 @@ def usable_name(name: str, place: str) -> Iterator[None]:
         raise
     # A broken address, a name that is too long, a zero byte or a cycle of links raises one of these errors.
     except (ValueError, OSError, RuntimeError) as cause:
-        raise SceneError(f"{place} wants {name!r}, which is no usable file name: {reason_of(cause)}.") from cause
+        raise SceneError(f"{place} wants {quoted(name)}, which is no usable file name: {reason_of(cause)}.") from cause
 
 
 def read_bytes(path: Path) -> bytes:
