@@ -586,6 +586,7 @@ def test_a_bake_keeps_a_loop_that_was_edited_by_hand_or_the_folder_that_has_it(
     assert main(["bake", room(tmp_path, "fan"), "-o", str(fan)]) == 0
     said = " ".join(capsys.readouterr().out.split())
     now, _ = soundfile.read(next((fan / "sounds").glob("*.tactile.wav")))
+    assert (", edited" in said) == (factor < 1.0)
     if factor < 1.0:
         np.testing.assert_allclose(now, samples * factor, atol=2**-23)
     else:
