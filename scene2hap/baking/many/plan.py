@@ -83,10 +83,15 @@ async def _planned(
 ) -> list[ScenePlan]:
     paths, place = scene_paths(scenes), checks.path("folder", folder, error=ConfigError)
     asked: Asked = {}
+    turn = asyncio.Lock()  # one scene after the other, so that a shared question counts for the first of them
     with Pool(None) as pool:
         run = Run(paths, place, config, config, dict(options or {}), user_prompt, pool, pictures, progress)
 
         async def one(path: Path) -> ScenePlan:
+            async with turn:
+                return await planned(path)
+
+        async def planned(path: Path) -> ScenePlan:
             target = str(run.target(path))
             try:
                 _, stage = await run.state(path)
