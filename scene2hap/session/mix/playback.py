@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Indices
 from scene2hap.devices.protocol import Block
 from scene2hap.render.bursts import Bursts, Fade, PlannedBurst
 from scene2hap.render.limiter import soft_limit
@@ -34,7 +35,6 @@ from scene2hap.session.mix.sources import LoopRow
 SPARE_SLOTS = 16
 """Least number of empty slots in a new bank; with more loops than this, one empty slot per loop."""
 
-Indices = NDArray[np.intp]
 
 _MOST_ROUTES = 64
 
