@@ -8,7 +8,8 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
-from scene2hap.common.printable import read_json, writable
+from scene2hap.common.json_texts import read_json
+from scene2hap.common.printable import writable
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 from scene2hap.scene.files import outside, read_bytes

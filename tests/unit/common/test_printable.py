@@ -9,7 +9,8 @@ import pytest
 
 from scene2hap import load_scene
 from scene2hap.cli import main
-from scene2hap.common.printable import aligned, printable, printable_json, writable
+from scene2hap.common.json_texts import printable_json
+from scene2hap.common.printable import aligned, printable, writable
 
 TITLE = "\x1b]0;owned\x07\x1b[2J"
 NASTY = {"escape": TITLE, "C1": "\x9b2J", "newline": "a\nscene2hap: error: b", "bidi": "\u202eabc", "return": "a\rb"}
