@@ -593,7 +593,10 @@ class HapticSession:
         self._output.start(self._mixed, self.hands)
 
     def stop(self) -> None:
-        """Fade out, stop the sink and release it; may be called twice. In a forked child the parent's sink plays on."""
+        """Fade out, stop the sink and release it; may be called twice, and by any thread.
+
+        In a forked child the parent's sink plays on.
+        """
         self._output.stop()
 
     close = stop
@@ -643,7 +646,7 @@ class HapticSession:
 
     @property
     def safety_stats(self) -> SafetyStats:
-        """Counters of the changes by the safety layer of a started session."""
+        """Counters of the changes by the safety layer since the last `start`, also after `stop`."""
         return self._output.safety_stats
 
     @cached_property

@@ -48,6 +48,7 @@ class Output:
         self.sink: ActuatorSink | None = built
         self._config = config
         self._safety: SafetyLayer | None = None
+        self._latest: SafetyLayer | None = None
         self._limits: NDArray[np.float64] | None = None
         self._show: Callable[[HapticFrame], None] | None = getattr(built, "show", None)
         self._shown: HapticFrame | None = None
@@ -73,8 +74,8 @@ class Output:
 
     @property
     def safety_stats(self) -> SafetyStats:
-        """Counters of samples that the safety layer of a started sink changed."""
-        return self._safety.stats if self._safety is not None else SafetyStats()
+        """Counters of samples that the safety layer changed since the last start; they stay after a stop."""
+        return self._latest.stats if self._latest is not None else SafetyStats()
 
     @property
     def problem(self) -> str | None:
@@ -87,15 +88,17 @@ class Output:
 
     def feed(self, frame: HapticFrame) -> None:
         """Reset the watchdog, and pass the gains to the sink."""
-        if self._safety is not None:
-            self._safety.feed()
+        safety = self._safety  # another thread may stop meanwhile
+        if safety is not None:
+            safety.feed()
             self.show(frame)
 
     def hold(self, limits: NDArray[np.float64]) -> None:
         """Hold each channel within a limit (n_hands,) [-], in addition to the actuator's limit."""
         self._limits = limits
-        if self._safety is not None:
-            self._safety.hold(limits)
+        safety = self._safety
+        if safety is not None:
+            safety.hold(limits)
 
     def show(self, frame: HapticFrame) -> None:
         """Pass a frame to the sink if it is started and accepts gains."""
@@ -138,7 +141,8 @@ class Output:
             with contextlib.suppress(Exception):  # the first error says what is wrong
                 self._release(self.sink, _discard(self.sink))
             raise
-        self._safety, self.is_unused = safety, False
+        self._safety = self._latest = safety
+        self.is_unused = False
         if has_clock(self.sink) or hasattr(self.sink, "abort"):
             # A program may end without `stop`: by an error, by Ctrl-C, or at the end of its code. Called before the
             # sink's own end, which neither fades nor completes a file.

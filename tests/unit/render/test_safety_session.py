@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 from scene2hap import ActuatorProfile, HapticSession, MemorySink, SessionConfig, Touch
 from scene2hap.devices.protocol import Fill, SinkFormat, SinkStats
 from scene2hap.errors import ConfigError
-from scene2hap.render.safety import FADE_OUT_S, SafetyLayer
+from scene2hap.render.safety import FADE_OUT_S, SafetyLayer, SafetyStats
+from scene2hap.session.frame import HapticFrame
+from scene2hap.session.mix.output import Output
 from scenes import RATE, table_with_two_phones
 
 CONFIG = {"sample_rate_hz": RATE}
@@ -124,3 +126,29 @@ def test_invalid_actuators_are_refused() -> None:
     with pytest.raises(ConfigError, match="actuator"):
         SessionConfig.parse({"actuator": "no such actuator"})
     assert SessionConfig.parse({"actuator": "lra"}).actuator.max_frequency_hz == 230.0
+
+
+def test_counters_of_the_safety_layer_stay_after_stop() -> None:
+    """A trial reads them at its end; zeros would mean that no guard had to act."""
+    sink = MemorySink()
+    config = {**CONFIG, "actuator": {"max_amplitude": 0.1, "max_rms": 0.1}}
+    with HapticSession(*table_with_two_phones(), config, sink=sink) as session:
+        assert session.safety_stats == SafetyStats()
+        session.update(touches=TOUCHES)
+        sink.pull(8000)
+        playing = session.safety_stats
+    assert session.safety_stats.peak_limited >= playing.peak_limited > 0
+    session.start()
+    assert session.safety_stats == SafetyStats()
+
+
+def test_another_thread_may_stop_a_session_within_an_update(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As a pedal that stops everything, or the handler of a signal."""
+    output = Output(ClockedSink(), SessionConfig(**CONFIG))
+    output.start(lambda n_frames: np.zeros((n_frames, 1), dtype=np.float32), ("left",))
+    before_stop = [output._safety]
+    with monkeypatch.context() as patch:  # it is there when read once, and gone when read again
+        gone = property(lambda self: before_stop.pop() if before_stop else None)
+        patch.setattr(Output, "_safety", gone, raising=False)
+        output.feed(HapticFrame(np.zeros((1, 0, 1), dtype=np.float32), ("left",), ()))
+    output.stop()
