@@ -46,6 +46,28 @@ def test_memory_keeps_all_blocks() -> None:
     assert sink.stats.frames == 0
 
 
+def test_a_wav_file_is_not_written_beyond_the_length_that_its_header_holds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Readers take the length of the header, modulo 2^32, and lose the end."""
+    monkeypatch.setattr("scene2hap.devices.wav.LARGEST_WAV_BYTES", 6 * 100)  # 100 frames of two channels of 24 bits
+    sink = WavSink(tmp_path / "long.wav")
+    sink.open(FORMAT)
+    sink.start(Ramp())
+    sink.pull(100)
+    with pytest.raises(DeviceError, match=r"after 100 frames: a WAV file holds 4 GiB.*end in \.rf64"):
+        sink.pull(1)
+    sink.close()
+    assert len(soundfile.read(sink.path)[0]) == 100
+    longer = WavSink(tmp_path / "long.rf64")
+    longer.open(FORMAT)
+    longer.start(Ramp())
+    longer.pull(101)
+    longer.close()
+    assert soundfile.info(longer.path).format == "RF64"
+    np.testing.assert_allclose(soundfile.read(longer.path)[0], Ramp()(101), atol=2**-23)
+
+
 def test_wav_file_has_the_pulled_samples_with_24_bits(tmp_path: Path) -> None:
     sink = WavSink(tmp_path / "deep" / "out.wav")
     sink.open(FORMAT)
