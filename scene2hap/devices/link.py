@@ -325,7 +325,7 @@ class LiveSink:
         if callback is None:
             return
         try:
-            callback(SinkEvent(kind, message, time.monotonic()))
+            callback(SinkEvent(kind, message, time.monotonic(), self._name))
         except Exception:  # an error in the game's callback must not silence the sink
             self._faults += 1
 

@@ -161,9 +161,10 @@ class TeeSink(PulledSink):
 
     def _report_failed(self, sink: ActuatorSink, cause: Exception) -> None:
         self._faults += 1
-        message = f"{type(sink).__name__} gets no more of the mix, the other sinks play on: {cause}"
+        name = type(sink).__name__
+        message = f"{name} gets no more of the mix, the other sinks play on: {cause}"
         try:
-            self._pass_on(SinkEvent("fault", message, time.monotonic()))
+            self._pass_on(SinkEvent("fault", message, time.monotonic(), name))
         except Exception:  # an error in the game's callback must not silence the other sinks
             self._faults += 1
 

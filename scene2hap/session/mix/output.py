@@ -52,7 +52,7 @@ class Output:
         self._limits: NDArray[np.float64] | None = None
         self._show: Callable[[HapticFrame], None] | None = getattr(built, "show", None)
         self._shown: HapticFrame | None = None
-        self._event: SinkEvent | None = None
+        self._events: dict[str, SinkEvent] = {}  # the last one of each sink
         if getattr(built, "on_event", self) is None:
             built.on_event = self._note  # type: ignore[union-attr]  # looked up by name, see ActuatorSink
         self.is_unused: bool = built is not None
@@ -79,12 +79,14 @@ class Output:
 
     @property
     def problem(self) -> str | None:
-        """Why a started sink plays nothing, None if it plays or if the game gets its events itself."""
-        event = self._event if self._safety is not None else None
-        return event.message if event is not None and event.kind in _PROBLEMS else None
+        """Why a started sink, or one of several, plays nothing. None if all play or the game gets their events."""
+        if self._safety is None or not self._events:
+            return None
+        events = list(self._events.values())  # the threads of the sinks add more
+        return next((event.message for event in events if event.kind in _PROBLEMS), None)
 
     def _note(self, event: SinkEvent) -> None:
-        self._event = event
+        self._events[event.sink] = event
 
     def feed(self, frame: HapticFrame) -> None:
         """Reset the watchdog, and pass the gains to the sink."""
@@ -134,6 +136,7 @@ class Output:
             on_trip=self._show_silence,
         )
         claim_sink(self.sink, self)
+        self._events.clear()
         try:
             self.sink.open(SinkFormat(rate, tuple(hands)))
             self.sink.start(safety.guard(fill))

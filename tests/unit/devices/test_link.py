@@ -301,3 +301,10 @@ def test_underruns_are_counted_from_open(bench: Bench) -> None:
     bench.start()
     bench.line.underruns += 2
     assert bench.sink.stats.underruns == 2
+
+
+def test_events_name_their_sink(bench: Bench) -> None:
+    """A TeeSink passes on the events of all its sinks."""
+    bench.start()
+    assert eventually(lambda: bench.events)
+    assert bench.events[0].sink == "test device"
