@@ -57,8 +57,8 @@ class SinkEvent:
     kind : "connected" (first or again), "unavailable" (cannot be reached, tried again later), "stalled" (takes no
         samples), "resumed" (takes them again), "lost" (was connected, is gone) or "fault" (the mix could not be
         rendered, a recording beside the device failed, or the driver does not return).
-    message : a sentence with the next step; at_s : time [s], on the clock of `time.monotonic`; sink : name of the sink, as
-        for one of a TeeSink.
+    message : a sentence with the next step; at_s : time [s], on the clock of `time.monotonic`; sink : name of the sink,
+        as for one of a TeeSink.
     """
 
     kind: EventKind

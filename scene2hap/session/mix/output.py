@@ -85,6 +85,12 @@ class Output:
         events = list(self._events.values())  # the threads of the sinks add more
         return next((event.message for event in events if event.kind in _PROBLEMS), None)
 
+    @property
+    def is_late(self) -> bool:
+        """Whether the watchdog silences a started sink."""
+        safety = self._safety
+        return safety is not None and safety.is_late
+
     def _note(self, event: SinkEvent) -> None:
         self._events[event.sink] = event
 

@@ -99,6 +99,23 @@ def test_a_sink_with_a_clock_falls_silent_without_updates(monkeypatch: pytest.Mo
     assert sink.fill is None
 
 
+def test_explain_says_that_the_watchdog_has_expired(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As in a program that updates once and then waits for an answer: it vibrates for a moment."""
+    now = 100.0
+    assert SafetyLayer.__init__.__kwdefaults__ is not None
+    monkeypatch.setitem(SafetyLayer.__init__.__kwdefaults__, "clock", lambda: now)
+    session = HapticSession(*table_with_two_phones(), {**CONFIG, "watchdog_s": 0.05}, sink=ClockedSink())
+    session.start()
+    session.update(touches=TOUCHES)
+    now += 0.049
+    assert session.explain("left").reasons == ()
+    now += 0.002
+    assert "no update came for 0.05 s" in session.explain("left").text
+    session.update(touches=TOUCHES)
+    assert session.explain("left").reasons == ()
+    session.stop()
+
+
 def test_a_sink_without_a_clock_needs_no_updates() -> None:
     sink = MemorySink()
     with HapticSession(*table_with_two_phones(), {**CONFIG, "watchdog_s": 0.02}, sink=sink) as session:
