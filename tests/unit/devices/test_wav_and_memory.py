@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 
 from scene2hap import MemorySink, WavSink
 from scene2hap.devices.protocol import SinkFormat
-from scene2hap.errors import DeviceError
+from scene2hap.errors import ConfigError, DeviceError
 
 FORMAT = SinkFormat(8000, ("left", "right"))
 
@@ -173,3 +174,18 @@ sink.close()
     sink.close()
     np.testing.assert_array_equal(soundfile.read(path)[0], np.full(2000, 0.5))
     assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize(
+    ("rate_hz", "channels", "says"),
+    [
+        (48_000, (), r"channels is \[\]; it must be at least one name"),
+        (48_000, "left", r"as \['left'\]"),
+        (0, ("left",), "sample_rate_hz is 0 Hz; it must be at least 1"),
+        (44_100.5, ("left",), "sample_rate_hz is 44100.5; it must be a whole number"),
+    ],
+)
+def test_a_format_without_channels_or_rate_is_refused(rate_hz: Any, channels: Any, says: str) -> None:
+    """Each sink failed on it with another message, such as that the folder of a WAV file cannot be written."""
+    with pytest.raises(ConfigError, match=says):
+        SinkFormat(rate_hz, channels)
