@@ -58,6 +58,7 @@ from scene2hap.session.hand_frames import HandFrames
 from scene2hap.session.impacts.felt_impacts import Impact, Impacts
 from scene2hap.session.likely_mistakes import (
     NOT_STARTED,
+    NOT_UPDATED,
     LikelyMistakes,
     warn_if_not_baked,
     warn_if_other_actuator,
@@ -449,6 +450,8 @@ class HapticSession:
             map(self._with_running, explained.felt), key=lambda one: -(one.gain_db + one.level_db + one.running_db)
         )
         waiting = NOT_STARTED if self._output.sink is not None and not self._output.is_started else self._output.problem
+        if waiting is None and self._output.is_late:
+            waiting = NOT_UPDATED.format(self.config.watchdog_s)
         reasons = explained.reasons if waiting is None else (waiting, *explained.reasons)
         return replace(explained, felt=tuple(felt), impacts=self._impacts.felt_by(hand), reasons=reasons)
 
@@ -593,7 +596,10 @@ class HapticSession:
         self._output.start(self._mixed, self.hands)
 
     def stop(self) -> None:
-        """Fade out, stop the sink and release it; may be called twice. In a forked child the parent's sink plays on."""
+        """Fade out, stop the sink and release it; may be called twice, and by any thread.
+
+        In a forked child the parent's sink plays on.
+        """
         self._output.stop()
 
     close = stop
@@ -643,7 +649,7 @@ class HapticSession:
 
     @property
     def safety_stats(self) -> SafetyStats:
-        """Counters of the changes by the safety layer of a started session."""
+        """Counters of the changes by the safety layer since the last `start`, also after `stop`."""
         return self._output.safety_stats
 
     @cached_property
