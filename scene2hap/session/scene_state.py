@@ -52,6 +52,11 @@ class SceneState:
         return scene.with_poses(self.graph.poses)
 
     @property
+    def up_axis(self) -> int:
+        """Number of the vertical axis."""
+        return VERTICAL[self._scene.up_axis]
+
+    @property
     def bodiless(self) -> tuple[str, ...]:
         """Objects whose material is unknown."""
         return tuple(object_id for object_id in self.objects if object_id not in self.bodies)
@@ -120,8 +125,7 @@ class SceneState:
     def is_closed(self, object_id: str, other: str, way: RelativePoses) -> bool:
         """Whether an object is a drawer, or the like, that another encloses where the scene has it: see `slams`."""
         item, holder, pose = self.objects[object_id], self.objects[other], self.graph.pose
-        up_axis = VERTICAL[self._scene.up_axis]
-        return is_closed(item, holder, way, (pose(object_id), pose(other)), up_axis)
+        return is_closed(item, holder, way, (pose(object_id), pose(other)), self.up_axis)
 
     def on_plate(self, object_id: str, point_m: tuple[float, float, float]) -> tuple[float, float] | None:
         """Coordinates of a world point [m] along length and width of an object's plate; None without a plate."""
