@@ -8,10 +8,9 @@ then the better estimate.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from itertools import pairwise
+from collections.abc import Sequence
 
-from scene2hap.scene.geometry import Vector, dot
+from scene2hap.scene.geometry import Vector
 from scene2hap.session.impacts.motion_track import MOST_STEPS
 from scene2hap.session.impacts.relative_motion import RelativeMotion
 
@@ -45,7 +44,7 @@ class ClosingSpeed:
         other: str,
         point_m: Vector,
         normal: Vector,
-        runs: Iterable[Sequence[tuple[int, float]]],
+        runs: tuple[Sequence[tuple[int, float]], Sequence[tuple[int, float]]],
         onward_m: float,
         time_s: float,
     ) -> float:
@@ -56,40 +55,34 @@ class ClosingSpeed:
         """
         motion, track = self._motion, self._motion.tracks[object_id]
         fall = track.run(0, FALL_S, 2 * MOST_STEPS)
-        times = [end_s for _, end_s in fall]
-        came = [motion.middle_nearing_m(object_id, other, point_m, normal, fall[0][0], update) for update, _ in fall]
+        begins, last = min(fall[0][0], runs[1][0][0]), fall[-1][0]
+        path = motion.middle_path_m(object_id, other, point_m, normal, begins, last)
+        times, came = [end_s for _, end_s in fall], [path[update] for update, _ in fall]
         meets_m, pull = came[-1] + max(0.0, onward_m), -GRAVITY_M_S2 * normal[self._up_axis]
         fastest = 0.0
         for n_without, run in enumerate(runs):
-            speed, of_middle = self._mean(object_id, other, point_m, normal, run)
-            end = len(fall) - n_without
             # The first step of a motion counts only alone, since a part of it was rest, or the motion before.
+            if len(run) > 2 and run[0][0] == track.since:
+                run = run[1:]
+            lasts_s, stands_still = self._lasts_s(run)
+            of_middle = (path[run[-1][0]] - path[run[0][0]]) / lasts_s
+            # The chord of a fast turn is no measure of its speed: the bottom of a spinning ball was lately its top.
+            turned_m = motion.turned_m(object_id, point_m, normal, run[0][0], run[-1][0])
+            speed = of_middle + turned_m / lasts_s
+            end = len(fall) - n_without
             begin = int(end > 2 and fall[0][0] == track.since)
-            if end - begin > 1 and times[begin] < times[end - 1] and of_middle is not None:
+            if end - begin > 1 and times[begin] < times[end - 1] and not stands_still:
                 falls, likely = fall_speed(times[begin:end], came[begin:end], meets_m, time_s, pull)
                 speed += likely * (falls - of_middle)
             fastest = max(fastest, speed)
         return fastest
 
-    def _mean(
-        self, object_id: str, other: str, point_m: Vector, normal: Vector, run: Sequence[tuple[int, float]]
-    ) -> tuple[float, float | None]:
-        """Mean speed over a run [m/s], of the object's middle and of its turns in each step, and that of its middle
-        alone, None if the clock stands still.
-
-        The chord of a fast turn is no measure of its speed: the bottom of a spinning ball was lately its top.
-        """
-        motion = self._motion
-        if len(run) > 2 and run[0][0] == motion.tracks[object_id].since:
-            run = run[1:]
+    def _lasts_s(self, run: Sequence[tuple[int, float]]) -> tuple[float, bool]:
+        """Return the duration of a run [s], and whether the clock stands still."""
         (first, begin_s), (last, end_s) = run[0], run[-1]
         n_updates, elapsed_s = last - first, end_s - begin_s
         stands_still = elapsed_s <= 0 or (n_updates > 1 and run[1][1] == end_s)
-        lasts_s = self._period_s * n_updates if stands_still else elapsed_s
-        came_m = motion.middle_nearing_m(object_id, other, point_m, normal, first, last)
-        turns = (motion.spin_m(object_id, point_m, since, until) for (since, _), (until, _) in pairwise(run))
-        turned_m = sum(dot(turn, normal) for turn in turns)
-        return (came_m + turned_m) / lasts_s, None if stands_still else came_m / lasts_s
+        return self._period_s * n_updates if stands_still else elapsed_s, stands_still
 
 
 def fall_speed(
@@ -101,23 +94,25 @@ def fall_speed(
     Parameters: times_s, came_m : two or more times, not all equal, and the travel until then; meets_m : the travel
     where it meets something; until_s : latest time of that; pull_m_s2 : gravity along the travel.
     """
-    n = len(times_s)
-    middle_s = sum(times_s) / n
-    t = [x - middle_s for x in times_s]
-    y = [s - pull_m_s2 * x * x / 2 for x, s in zip(t, came_m, strict=True)]
-    t2 = sum(x * x for x in t)
-    mean_m, speed = sum(y) / n, sum(x * s for x, s in zip(t, y, strict=True)) / t2
+    n, middle_s = len(times_s), sum(times_s) / len(times_s)
+    # Sums in one loop: with numpy, or a sum at a time, they take twice as long.
+    t2 = t3 = t4 = y1 = ty = t2y = y2 = 0.0
+    for time_s, came in zip(times_s, came_m, strict=True):
+        t = time_s - middle_s
+        square = t * t
+        y = came - pull_m_s2 * square / 2
+        t2, t3, t4 = t2 + square, t3 + t * square, t4 + square * square
+        y1, ty, t2y, y2 = y1 + y, ty + t * y, t2y + square * y, y2 + y * y
+    mean_m, speed = y1 / n, ty / t2
     # What is left of a parabola, orthogonal to any line.
-    skew, level = sum(x**3 for x in t) / t2, t2 / n
-    bend = [x * x - skew * x - level for x in t]
-    bend2 = sum(x * x for x in bend)
+    bend2 = t4 - t3 * t3 / t2 - t2 * t2 / n
     likely = 1.0
     if bend2 > _TWO_TIMES * t2 * t2:
-        bent = sum(x * s for x, s in zip(bend, y, strict=True)) / bend2
-        residual = sum((s - mean_m) ** 2 for s in y) - speed**2 * t2 - bent**2 * bend2
+        bent = (t2y - ty * t3 / t2 - y1 * t2 / n) / bend2
+        residual = y2 - y1 * mean_m - speed**2 * t2 - bent**2 * bend2
         variance = (_PRIOR * NOISE_M**2 + max(residual, 0.0)) / (_PRIOR + n - 3)
         likely = 1 / (1 + bent**2 * bend2 / variance / DOUBT**2)
-    end = t[-1]
+    end = times_s[-1] - middle_s
     speed += pull_m_s2 * end
     left_m = meets_m - (mean_m + (speed - pull_m_s2 * end / 2) * end)
     met = speed * speed + 2 * pull_m_s2 * left_m

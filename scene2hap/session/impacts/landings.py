@@ -18,13 +18,11 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
-import numpy as np
-
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
 from scene2hap.contact.rule import TOUCH_M
 from scene2hap.scene.geometry import Vector, difference, dot
-from scene2hap.scene.pose import Pose
+from scene2hap.scene.pose import Pose, in_own
 from scene2hap.session.impacts.approaches import NO_JUNCTIONS, Approach, Approaches
 from scene2hap.session.impacts.closing_speed import ClosingSpeed
 from scene2hap.session.impacts.motion_track import (
@@ -277,7 +275,9 @@ class Landings:
         The point of a contact is half way between the two surfaces. The box around the object reaches at least as far
         as its own.
         """
-        own_normal: list[float] = (np.array(normal) @ self._graph.pose(object_id).rotation).tolist()
+        pose = self._graph.pose(object_id)
+        (x, y, z), (u, v, w) = normal, pose.position_m
+        own_normal = in_own((u + x, v + y, w + z), pose)
         reach_m = sum(abs(part) * half for part, half in zip(own_normal, self._half_m(object_id), strict=True))
         return 2 * (dot(difference(point_m, track.middle_m), normal) - reach_m) <= TOUCH_M
 

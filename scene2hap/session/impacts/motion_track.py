@@ -141,6 +141,10 @@ class MotionTrack:
         kept = [(update, time_s) for update, time_s in latest if update >= self.since and end_s - time_s <= window_s]
         return kept if len(kept) > 1 else latest[-2:]
 
+    def between(self, since: int, until: int) -> list[tuple[int, Pose]]:
+        """Return update and pose of the steps from one to another, both included."""
+        return [(update, pose) for update, _, pose in self.steps if since <= update <= until]
+
     def pose_at(self, update: int) -> Pose:
         """Return the pose after an update, or the first known pose after it."""
         found = self.pose
