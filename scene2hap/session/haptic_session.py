@@ -245,7 +245,9 @@ class HapticSession:
         """Return the touches of tracked points, such as finger tips, for a game without collisions of its own.
 
         A point touches each object whose surface is at most `within_m` in front of it [m], or at most `depth_m` [m] if
-        the point is inside, behind the nearest face. The touch is at the nearest point of the surface.
+        the point is inside, behind the nearest face. The touch is at the nearest point of the surface. An object that
+        the hand touched at the last update is touched up to 1.5 times these distances, so that a finger at the limit
+        does not start and stop to touch with the noise of its tracker.
         Parameters: points_m : for each hand its points (n, 3) or one point (3,) in the world [m], None while the hand
         is not tracked; moved : poses that the next update will get, by id.
         Raises: SessionError: an unknown hand, points that are not finite or of another shape, a distance below 0 or
@@ -260,7 +262,8 @@ class HapticSession:
                 self._state.require(object_id)
                 require_pose(object_id, pose)
             poses = {**poses, **moved}
-        return self._proximity.touches(points, self._state.objects, poses, within_m, depth_m)
+        touched = self._hand_frames.felt
+        return self._proximity.touches(points, self._state.objects, poses, within_m, depth_m, touched)
 
     def strike(
         self,
