@@ -187,7 +187,7 @@ class VibrationDescription:
     def __post_init__(self) -> None:
         for name in ("object_category", "state", "sentence", "keywords", "material"):
             checks.text(name, getattr(self, name), error=ConfigError)
-        checks.whole("seed", self.seed, "-", at_least=-(2**63), at_most=2**64, error=ConfigError)
+        checks.seed(self.seed, error=ConfigError)
 
 
 _HERTZ = "It is in Hz, not in kHz."

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, overload
 
 import numpy as np
@@ -48,15 +48,17 @@ class AudioClip:
     """A mono sound: float32 samples (n_samples,), nominally in [-1, 1].
 
     `is_vibration` marks a vibration signal, such as a hand-made haptic clip: it is looped whole and not converted.
+    `loop` are the samples [first, end) that a person has marked as its loop; None if a seam is to be found.
     Clips are equal if all of this is equal, sample by sample.
-    Raises: AudioError: no samples, a value that is not finite, or a sample rate outside of 1 to
-    `MAX_SAMPLE_RATE_HZ`.
+    Raises: AudioError: no samples, a value that is not finite, a sample rate outside of 1 to `MAX_SAMPLE_RATE_HZ`, or a
+    loop outside of the samples.
     """
 
     samples: Samples
     sample_rate_hz: int
     credit: Credit = field(default_factory=lambda: Credit("untitled", "unknown", "unknown"))
     is_vibration: bool = False
+    loop: tuple[int, int] | None = None
 
     if TYPE_CHECKING:
 
@@ -66,6 +68,7 @@ class AudioClip:
             sample_rate_hz: int,
             credit: Credit = ...,
             is_vibration: bool = False,
+            loop: tuple[int, int] | None = None,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -80,6 +83,16 @@ class AudioClip:
         if not np.isfinite(samples).all():
             first = int(np.argmin(np.isfinite(samples)))
             raise AudioError(f"{self.credit.title!r}: sample {first} is {samples[first]}; every sample must be finite.")
+        if self.loop is not None:
+            edges = checks.items("loop", self.loop, error=AudioError)
+            if len(edges) != 2:
+                raise AudioError(f"loop is {checks.represented(self.loop)}; it must be its first sample and its end.")
+            n = len(samples)
+            end = checks.whole("end of the loop", edges[1], "samples", at_least=1, at_most=n, error=AudioError)
+            first = checks.whole(
+                "first sample of the loop", edges[0], "samples", at_least=0, at_most=end - 1, error=AudioError
+            )
+            object.__setattr__(self, "loop", (first, end))
         samples.flags.writeable = False
         object.__setattr__(self, "samples", samples)
         object.__setattr__(self, "sample_rate_hz", rate)
@@ -94,7 +107,7 @@ class AudioClip:
 
     @property
     def _about(self) -> tuple[object, ...]:
-        return len(self.samples), self.sample_rate_hz, self.credit, self.is_vibration
+        return len(self.samples), self.sample_rate_hz, self.credit, self.is_vibration, self.loop
 
     def __repr__(self) -> str:
         return f"AudioClip({self.credit.title!r}, {self.duration_s:.3g} s, {self.sample_rate_hz} Hz)"
@@ -103,6 +116,11 @@ class AudioClip:
     def duration_s(self) -> float:
         """Length [s]."""
         return len(self.samples) / self.sample_rate_hz
+
+    def part(self, first: int, end: int) -> AudioClip:
+        """Return the samples [first, end), with the part of the loop that lies in them, if any."""
+        low, high = (min(max(edge, first), end) - first for edge in self.loop or (0, 0))
+        return replace(self, samples=self.samples[first:end], loop=(low, high) if low < high else None)
 
     @overload
     def plot(self, *, title: str | None = None, figure: None = None) -> Figure: ...

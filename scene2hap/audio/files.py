@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import io
-import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -16,6 +15,7 @@ import soundfile
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.audio.clip import AudioClip, Credit, Samples
+from scene2hap.audio.loop_marks import marked_loop, with_loop
 from scene2hap.common import checks
 from scene2hap.common.text_files import LFS_ADVICE, draft_of, is_lfs_pointer, is_there, path_in_c
 from scene2hap.errors import AudioError, reason_of, unwritable
@@ -68,6 +68,8 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
 
     Several channels are mixed by their mean; if they cancel each other, the strongest is taken (`Mixdown`).
 
+    A loop that a WAV marks becomes the clip's `loop` (`loop_marks`).
+
     Without a `credit` the file's stem becomes the title, author and licence are "unknown".
     Raises: AudioError: the file is absent, is not audio, has no samples, a sample that is not finite, or more than
     `MAX_FILE_S`.
@@ -82,8 +84,10 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
             blocks = [
                 block[:, strongest].copy() for block in file.blocks(_BLOCK_FRAMES, dtype="float32", always_2d=True)
             ]
+        samples = np.concatenate(blocks)
+        loop = marked_loop(path, len(samples), rate)
     try:
-        return AudioClip(np.concatenate(blocks), rate, credit or Credit(path.stem, "unknown", "unknown"))
+        return AudioClip(samples, rate, credit or Credit(path.stem, "unknown", "unknown"), loop=loop)
     except AudioError as cause:
         raise AudioError(f"{path}: {cause}") from cause
 
@@ -243,10 +247,12 @@ def encoded(
     path: Path = Path("samples"),
     *,
     is_loop: bool = False,
+    loop: tuple[int, int] | None = None,
 ) -> bytes:
     """Return the content of a sound file, see `write_wav`; `path` is named in errors.
 
-    `is_loop` : a WAV says that it is repeated as a whole, for samplers and game audio tools. Raises: AudioError.
+    `is_loop` : a WAV marks itself as a loop, for samplers and game audio tools; `loop` : it marks these samples
+    [first, end). Raises: AudioError.
     """
     rate = int(checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=1, error=AudioError))
     if subtype not in _BITS:
@@ -254,19 +260,8 @@ def encoded(
     content = io.BytesIO()
     steps = _quantised(path, samples, _BITS[subtype])
     soundfile.write(content, steps, rate, subtype=subtype, format=container)
-    return _with_loop(content.getvalue(), len(steps), rate) if is_loop and container == "WAV" else content.getvalue()
-
-
-def _with_loop(wav: bytes, n_samples: int, rate_hz: int) -> bytes:
-    """Append a chunk "smpl" with one loop: all samples, forwards, for ever.
-
-    Source: Microsoft and IBM, "Multimedia Programming Interface and Data Specifications 1.0", update of 1994.
-    """
-    middle_c, forwards, for_ever = 60, 0, 0
-    sampler = 0, 0, round(1e9 / rate_hz), middle_c, 0, 0, 0, 1, 0  # one loop
-    loop = 0, forwards, 0, n_samples - 1, 0, for_ever
-    body = wav[8:] + bytes(len(wav) % 2) + struct.pack("<4sI15I", b"smpl", 60, *sampler, *loop)
-    return b"RIFF" + len(body).to_bytes(4, "little") + body
+    loop = (0, len(steps)) if is_loop else loop
+    return with_loop(content.getvalue(), *loop, rate) if loop and container == "WAV" else content.getvalue()
 
 
 def as_stored(clip: AudioClip) -> AudioClip:

@@ -116,8 +116,10 @@ def explain_choice(clips: Sequence[AudioClip]) -> Choice:
         analysis.FLATNESS_BAND_HZ[0],
         min(analysis.FLATNESS_BAND_HZ[1], _NYQUIST_MARGIN * min(clips[i].sample_rate_hz for i in eligible)),
     )
-    runs = {i: recorded_runs(clips[i].samples, clips[i].sample_rate_hz) for i in eligible}
-    steady_spans = {i: (max(spans[i][0], runs[i].first), min(spans[i][1], runs[i].end)) for i in eligible}
+    runs = {i: recorded_runs(clips[i].samples, clips[i].sample_rate_hz, clips[i].loop) for i in eligible}
+    steady_spans = {
+        i: clips[i].loop or (max(spans[i][0], runs[i].first), min(spans[i][1], runs[i].end)) for i in eligible
+    }
     scores = {i: _Scores.of(clips[i].samples[slice(*steady_spans[i])], clips[i].sample_rate_hz, band) for i in eligible}
     limit_db = DYNAMIC_RANGE_STEP_DB
     while min(score.dynamic_range_db for score in scores.values()) > limit_db:
@@ -175,8 +177,11 @@ def _verdict(
 
 
 def _ready(clip: AudioClip, first: int, end: int) -> AudioClip:
-    """Return the samples from `first` to `end`, faded at cuts, with a peak of 1."""
-    samples = clip.samples[first:end].copy()
+    """Return the samples from `first` to `end`, faded at cuts except those of a marked loop, with a peak of 1."""
+    cut = clip.part(first, end)
+    if cut.loop is not None:
+        return replace(cut, samples=cut.samples / np.abs(cut.samples).max())
+    samples = cut.samples.copy()
     n_fade = min(round(FADE_S * clip.sample_rate_hz), len(samples) // 2)
     rising = (0.5 - 0.5 * np.cos(np.pi * np.arange(n_fade) / max(1, n_fade))).astype(np.float32)
     if first > 0:

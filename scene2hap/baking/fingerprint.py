@@ -7,7 +7,7 @@ converter  kind and settings
 actuator   the profile
 intensity  of the state
 plan       the source's place among the others: frequencies and level
-loop       the tactile loop that was made; shows that a person edited its file
+loop, audible  the tactile and the audible loop that were made; show that a person edited them (`bundle.edited_loops`)
 corrections  a person's sound, intensity and pitch; shows that a correction is not baked yet
 
 If `words` or `sources` differ, a sound is chosen again. If another digest differs, its loops are made again.
@@ -25,16 +25,12 @@ from typing import Any
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.felt_loop import Plan
 from scene2hap.audio.files import sound_digest
-from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.baking.config import BakeConfig
 from scene2hap.haptics import ActuatorProfile, VibrationDescription
 
 OWN_CLIP = "own clip"
 """Replaces the digests of words and sources if a person gave the sound."""
-
-LOOP = "loop"
-"""Part of a fingerprint: the digest of the tactile loop."""
 
 _MADE_BY = ("sound", "converter", "actuator", "intensity", "plan")
 _NO_FINGERPRINT = "no fingerprint"
@@ -83,12 +79,6 @@ def differences(earlier: Mapping[str, str], now: Mapping[str, str]) -> tuple[str
         return (_NO_FINGERPRINT,)
     found = tuple(part for part in _MADE_BY if earlier.get(part) != now[part])
     return found[:-1] if len(found) > 1 and found[-1] == "plan" else found
-
-
-def is_edited(loop: HapticLoop) -> bool:
-    """Return True if a person has changed the samples of a tactile loop since it was made."""
-    made = loop.fingerprint.get(LOOP)
-    return bool(made) and made != sound_digest(loop.tactile)
 
 
 def converter_settings(converter: object) -> dict[str, Any]:

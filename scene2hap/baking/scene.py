@@ -31,6 +31,7 @@ from scene2hap.baking.recorded_times import with_recorded_times
 from scene2hap.baking.sound import EarlierLoops, Progress, Remade, Sounds, make_loops
 from scene2hap.bundle import HapticBundle, MadeWith, Override
 from scene2hap.bundle.arguments import given_bundle
+from scene2hap.bundle.edited_loops import is_edited
 from scene2hap.bundle.override import NONE, answers_before
 from scene2hap.bundle.pending_corrections import objects_without_states, renamed_objects
 from scene2hap.common import checks
@@ -70,7 +71,8 @@ def bake(
     progress : called with stage, step, number done and total number.
     on_report : receives the report of the inference: calls, skipped calls, tokens, errors of single objects.
     overrides : a person's corrections by id, for example of an earlier bundle; they replace inferred values.
-    earlier : a bundle of this scene; the states and loops of objects that `overrides` lock are taken from it.
+    earlier : a bundle of this scene; the states and loops of objects that `overrides` lock are taken from it, and loops
+        that a person edited by hand, unless they would now be made otherwise (with a warning).
 
     Raises: ConfigError; SceneError: more objects than a bundle may have (`scene.limits`); BackendError: inference
     failed; AudioError: no source has a sound for a vibrating object.
@@ -120,13 +122,17 @@ async def bake_inferred(
     earlier: HapticBundle | None = None,
 ) -> HapticBundle:
     """Make the loops of an inferred scene. Returns its bundle, as `bake` after inference. Raises: AudioError."""
-    locked, answers = EarlierLoops(), inferred
+    before_bake, answers = EarlierLoops(), inferred
     if earlier is not None:
-        loops = {key: loops for key, loops in earlier.loops.items() if key in overrides and overrides[key].locked}
-        locked = EarlierLoops(loops, earlier.choices)
-        kept = {key: replace_vibration(inferred[key], earlier.objects[key]) for key in loops if key in inferred}
+        locked = {key: states for key, states in earlier.loops.items() if overrides.get(key, NONE).locked}
+        edited = {
+            key: {name: loop for name, loop in states.items() if is_edited(loop)}
+            for key, states in earlier.loops.items()
+        }
+        before_bake = EarlierLoops(edited | locked, earlier.choices, any_source=False)
+        kept = {key: replace_vibration(inferred[key], earlier.objects[key]) for key in locked if key in inferred}
         inferred = {**inferred, **kept}
-    objects, sounds = await _make_loops(inferred, overrides, config, progress, locked, {})
+    objects, sounds = await _make_loops(inferred, overrides, config, progress, before_bake, {})
     warn_of_scene(scene, objects)
     warn_of_vain_corrections(objects, overrides)
     before = answers_before(with_recorded_times(answers, sounds.loops, {}), overrides, {})
@@ -237,7 +243,9 @@ async def arebake(
     config = BakeConfig.parse(config)
     given, config = config.model_fields_set, _settings_of(bundle, config)
     for key in [key for key in bundle.inferred if bundle.overrides.get(key, NONE) == NONE]:
-        bundle = bundle.reset(key)  # its row was removed from the file
+        # Its row was removed from the file. Loops that were edited by hand stay: nobody has asked for others.
+        reset = bundle.reset(key)
+        bundle = replace(reset, loops={one: bundle.loops[one] for one in reset.loops})
     if isinstance(objects, str):
         raise ConfigError(f"objects is the text {objects!r}; give a list of ids, [{objects!r}].")
     whole = [*checks.items("objects", objects, error=ConfigError), *renamed_objects(bundle)]

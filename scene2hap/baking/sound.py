@@ -17,7 +17,7 @@ import numpy as np
 
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.felt_loop import Plan, SourceClip, felt_loop, plan_scene
-from scene2hap.audio.files import as_stored, sound_digest
+from scene2hap.audio.files import as_stored
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.loops import middle_of
 from scene2hap.audio.recorded_runs import recorded_runs
@@ -25,17 +25,16 @@ from scene2hap.audio.select import Choice, explain_choice
 from scene2hap.audio.sources.chain import gather
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import (
-    LOOP,
     OWN_CLIP,
     actuator_digest,
     converter_name,
     differences,
-    is_edited,
     made_by,
     request_digests,
 )
 from scene2hap.baking.recorded_times import NO_RUNS, Runs, runs_of, shown_runs
 from scene2hap.bundle import BundleWarning, Override
+from scene2hap.bundle.edited_loops import LOOPS, is_edited, loop_digests
 from scene2hap.bundle.pending_corrections import CORRECTIONS, corrections_digest
 from scene2hap.common.blas_threads import one_blas_thread
 from scene2hap.common.counted import first_of
@@ -136,7 +135,6 @@ async def make_loops(
     with one_blas_thread:
         plans = await asyncio.to_thread(plan_scene, sources, config.tactile, config.actuator, config.spread, standing)
         made = await _made(parts, plans, config, tell)
-    _warn_of_lost_edits(parts, [reasons for _, reasons in made])
     if any({"actuator", *_NEW}.intersection(reasons) for _, reasons in made):
         _warn_of_other_actuator(parts, config.actuator)
     loops: dict[str, dict[str, HapticLoop]] = {}
@@ -144,6 +142,7 @@ async def make_loops(
         loops.setdefault(part.object_id, {})[part.state.name] = loop
         if reasons:
             sounds.remade.setdefault(part.object_id, {})[part.state.name] = reasons
+    _warn_of_lost_edits(before.loops, loops)
     for object_id, states in loops.items():
         known = before.loops.get(object_id)
         sounds.loops[object_id] = known if known is not None and _is_same(known, states) else states
@@ -167,19 +166,27 @@ def _warn_of_other_actuator(parts: Sequence[_Part], actuator: ActuatorProfile) -
         )
 
 
-def _warn_of_lost_edits(parts: Sequence[_Part], remade: Sequence[tuple[str, ...]]) -> None:
-    """Warn of loops that were edited by hand, and are made again. Warns: BundleWarning."""
-    lost = dict.fromkeys(
-        part.object_id
-        for part, reasons in zip(parts, remade, strict=True)
-        if reasons and part.earlier is not None and is_edited(part.earlier)
-    )
+def _warn_of_lost_edits(
+    earlier: Mapping[str, Mapping[str, HapticLoop]], now: Mapping[str, Mapping[str, HapticLoop]]
+) -> None:
+    """Warn of loops that were edited by hand, and are made again or removed. Warns: BundleWarning."""
+    lost = [
+        key
+        for key, states in earlier.items()
+        if any(
+            is_edited(loop) and not _has_samples_of(loop, now.get(key, {}).get(name)) for name, loop in states.items()
+        )
+    ]
     if lost:
         warn_of(
-            f"tactile loops that were edited by hand are made again, and the edits are lost: {first_of([*lost], 5)}. "
+            f"loops that were edited by hand are made again or removed, and the edits are lost: {first_of(lost, 5)}. "
             "`scene2hap edit BUNDLE undo` restores them. To keep such a loop, lock its object before.",
             BundleWarning,
         )
+
+
+def _has_samples_of(earlier: HapticLoop, now: HapticLoop | None) -> bool:
+    return now is not None and now.tactile is earlier.tactile
 
 
 async def _made(
@@ -311,9 +318,9 @@ class _Maker:
             self._names[key] = made_by(clip, self._converter, plan)
         fingerprint = {**part.request, **self._names[key]}
         reasons = differences(part.earlier.fingerprint, fingerprint) if part.earlier is not None else _NEW
-        if part.earlier is not None and not reasons:
+        if part.earlier is not None and (not reasons or _is_edited_beside_others(part, reasons)):
             # The loop itself may have been edited by hand, and stays.
-            fingerprint = {**fingerprint, LOOP: part.earlier.fingerprint.get(LOOP, "")}
+            fingerprint |= {name: digest for name in LOOPS if (digest := part.earlier.fingerprint.get(name))}
             unchanged = dict(part.earlier.fingerprint) == fingerprint and runs_of(part.earlier) == part.runs
             return part.earlier if unchanged else _as_of(part, part.earlier, fingerprint), _UNCHANGED
         if key not in self._made:
@@ -325,8 +332,15 @@ class _Maker:
             self._made[key] = replace(made, audible=as_stored(made.audible), tactile=as_stored(made.tactile))
         # A person's own clip is stored with the override. Without that override, another sound must be chosen.
         source = None if part.request["words"] == OWN_CLIP else clip
-        fingerprint = {**fingerprint, LOOP: sound_digest(self._made[key].tactile)}
+        fingerprint |= loop_digests(self._made[key])
         return replace(_as_of(part, self._made[key], fingerprint), source=source), reasons
+
+
+def _is_edited_beside_others(part: _Part, reasons: tuple[str, ...]) -> bool:
+    """Return True for a loop that a person edited by hand, if only the places of other sources have changed."""
+    if reasons != ("plan",) or part.earlier is None or not is_edited(part.earlier):
+        return False
+    return part.earlier.fingerprint.get(CORRECTIONS, "") == part.request[CORRECTIONS]
 
 
 def _as_of(part: _Part, loop: HapticLoop, fingerprint: Mapping[str, str]) -> HapticLoop:
@@ -361,11 +375,8 @@ def _own(clip: AudioClip) -> tuple[AudioClip, Runs]:
     """Return the steady part of a person's clip, as stored in a bundle, and its recorded start and stop."""
     if clip.is_vibration:
         return _prepared(clip), NO_RUNS
-    found = recorded_runs(clip.samples, clip.sample_rate_hz)
-    if found.start_up is None and found.wind_down is None:
-        return _prepared(clip), NO_RUNS
-    steady = replace(clip, samples=clip.samples[found.first : found.end])
-    return _prepared(steady), (found.start_up, found.wind_down)
+    found = recorded_runs(clip.samples, clip.sample_rate_hz, clip.loop)
+    return _prepared(clip.part(found.first, found.end)), (found.start_up, found.wind_down)
 
 
 def _prepared(clip: AudioClip) -> AudioClip:

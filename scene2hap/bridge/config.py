@@ -9,6 +9,7 @@ from typing import Any, Self
 
 from pydantic import Field, field_validator, model_validator
 
+from scene2hap.common.printable import quoted
 from scene2hap.common.secret import Secret
 from scene2hap.common.settings import Settings
 from scene2hap.errors import ConfigError
@@ -55,7 +56,7 @@ class BridgeConfig(Settings):
     @classmethod
     def _is_folder(cls, root: Path | None) -> Path | None:
         if root is not None and not os.path.isdir(root):
-            raise ConfigError(f"root is {str(root)!r}; it must be a folder. Create it first.")
+            raise ConfigError(f"root is {quoted(root)}; it must be a folder. Create it first.")
         return None if root is None else root.resolve()
 
     @model_validator(mode="after")

@@ -83,6 +83,17 @@ def warn_of_edited_loops(bundle: BundleContents, folder: Path) -> None:
                 warn_of(f"{folder}: the tactile loop of {object_id!r}, state {state!r}, {doubt}", BundleWarning)
 
 
+def require_savable(bundle: BundleContents, folder: Path) -> None:
+    """Check that all loops are within full scale, as files of integers hold. Raises: BundleError."""
+    for object_id, states in bundle.loops.items():
+        for state, loop in states.items():
+            if max(float(np.abs(clip.samples).max()) for clip in (loop.audible, loop.tactile)) > 1.0:
+                raise BundleError(
+                    f"{folder}: a loop of {object_id!r}, state {state!r}, peaks over full scale, so that it cannot be "
+                    "saved. Lower it in your audio editor."
+                )
+
+
 def _loop_doubt(samples: Samples) -> str:
     """Return the end of a sentence on what is wrong with a loop; empty if nothing is."""
     peak = float(np.abs(samples).max())

@@ -112,10 +112,10 @@ def _write(bundle: BundleContents, folder: Path, like: Path | None = None) -> No
     (folder / "sounds").mkdir()
     written: list[str] = []
 
-    def put(name: str, document: Any) -> None:
-        text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
+    def put(name: str, document: Any, written_as: Callable[..., str] = _indented) -> None:
+        text = written_as(document, ensure_ascii=False)
         if _SURROGATE.search(text):  # a name came from a file name that is not UTF-8
-            text = json.dumps(document, indent=1, allow_nan=False)
+            text = written_as(document, ensure_ascii=True)
         put_bytes(name, f"{text}\n".encode())
 
     def put_bytes(name: str, content: bytes) -> None:
@@ -139,9 +139,9 @@ def _write(bundle: BundleContents, folder: Path, like: Path | None = None) -> No
     put("scene.json", {"format": scene_json.FORMAT, "version": scene_json.VERSION, **scene})
     put("objects.json", _objects.dump_python(dict(bundle.objects), mode="json"))
     if bundle.inferred:
-        put("inferred.json", _objects.dump_python(dict(bundle.inferred), mode="json"))
+        put("inferred.json", _objects.dump_python(dict(bundle.inferred), mode="json"), _by_line)
     put("loops.json", write_loops(bundle, put_bytes))
-    put("overrides.json", _override_rows(bundle, put_bytes))
+    put("overrides.json", _override_rows(bundle, put_bytes), _by_line)
     owed = dict.fromkeys(replace(who, query="") for who in bundle.credits)  # two queries may find one sound
     lines = [f"{who.title}, by {who.author}, {who.licence}{', ' + who.address if who.address else ''}" for who in owed]
     text = "\n".join(["Sounds in this bundle, cut into loops and turned into vibration", *lines]) + "\n"
@@ -156,6 +156,16 @@ def _write(bundle: BundleContents, folder: Path, like: Path | None = None) -> No
             "files": written,
         },
     )
+
+
+def _indented(document: Any, *, ensure_ascii: bool) -> str:
+    return json.dumps(document, indent=1, ensure_ascii=ensure_ascii, allow_nan=False)
+
+
+def _by_line(rows: Mapping[str, Any], *, ensure_ascii: bool) -> str:
+    """Return JSON with one line for each object, since git merges lines: it would mix the fields of two objects."""
+    lines = [json.dumps({key: row}, ensure_ascii=ensure_ascii, allow_nan=False)[1:-1] for key, row in rows.items()]
+    return "{\n " + ",\n ".join(lines) + "\n}" if lines else "{}"
 
 
 def _linked(existing: Path, new: Path, content: bytes) -> bool:
@@ -272,7 +282,7 @@ def _read_objects(folder: Path, name: str, scene: SceneSnapshot) -> dict[str, Ob
     path = folder / name
     with _reading(path):
         answers = _with_named_materials(path, read_json(folder, name))
-        objects = _objects.validate_python(answers)
+        objects = _objects.validate_json(json.dumps(answers), strict=True)  # else true is taken for the number 1
         warn_of_unknown_fields(path, answers)
         _require_objects(objects, scene)
     return objects
@@ -287,7 +297,7 @@ def _override_rows(bundle: BundleContents, put: Callable[[str, bytes], None]) ->
             row[name] = asdict(row[name])
         if wish.clip is not None:
             name = f"sounds/{stems[object_id]}.override.wav"
-            put(name, encoded(wish.clip.samples, wish.clip.sample_rate_hz, path=Path(name)))
+            put(name, encoded(wish.clip.samples, wish.clip.sample_rate_hz, path=Path(name), loop=wish.clip.loop))
             row["clip"] = {"file": name, "credit": asdict(wish.clip.credit)}
             if wish.clip.is_vibration:
                 row["clip"]["is_vibration"] = True

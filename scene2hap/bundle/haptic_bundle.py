@@ -15,6 +15,7 @@ from scene2hap.audio.loops import MIN_CLIP_S
 from scene2hap.bundle.checking import require_plausible
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.corrections import read_corrections
+from scene2hap.bundle.edited_loops import to_be_made_again
 from scene2hap.bundle.folder import read_bundle, write_bundle
 from scene2hap.bundle.notebook import bundle_table
 from scene2hap.bundle.override import ANY_STATE, BY_STATE, MAKES_LOOPS, NONE, USER, Override, answers_before
@@ -147,9 +148,9 @@ class HapticBundle(BundleContents):
     def reset(self, object_id: str) -> Self:
         """Take back all corrections of one object, so that it is as inferred. Returns a new bundle.
 
-        What an edit of `objects.json` by hand changed in a corrected object is taken back, too. Loops follow with
-        `rebake(bundle)`. Raises: UnknownObject; BundleError: the object is locked, or the bundle does not know what
-        was inferred.
+        What an edit by hand changed in its loops, and in the row of a corrected object in `objects.json`, is taken
+        back, too. Loops follow with `rebake(bundle)`. Raises: UnknownObject; BundleError: the object is locked, or the
+        bundle does not know what was inferred.
         """
         self.snapshot.object(object_id)
         if self.overrides.get(object_id, NONE).locked:
@@ -167,6 +168,8 @@ class HapticBundle(BundleContents):
             objects[object_id] = before
             if not before.vibrates:
                 loops.pop(object_id, None)
+        if object_id in loops:
+            loops[object_id] = {name: to_be_made_again(loop) for name, loop in loops[object_id].items()}
         return replace(self, objects=objects, loops=loops, overrides=overrides, inferred=inferred)
 
     def corrected(self, file: str | os.PathLike[str]) -> Self:

@@ -51,8 +51,9 @@ class MadeWith:
         try:
             fields = dict(document)  # type: ignore[call-overload]  # the except clause handles other types
             tactile, seed = fields["tactile"], fields["seed"]
-            if not isinstance(tactile, dict) or not isinstance(seed, int):
-                raise TypeError("tactile must be an object and seed a whole number")
+            if not isinstance(tactile, dict):
+                raise TypeError("tactile must be an object")
+            seed = checks.seed(seed, error=ConfigError)
             actuator = ActuatorProfile(**fields["actuator"])
             return cls(actuator, tactile, SpreadLimits.parse(fields["spread"]), seed)
         except (ConfigError, KeyError, TypeError, ValueError) as cause:

@@ -9,6 +9,7 @@ from typing import Any
 
 from scene2hap.bundle.files import read_json
 from scene2hap.common import checks
+from scene2hap.common.printable import quoted
 from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError
 
 FORMAT = "scene2hap/bundle"
@@ -46,14 +47,14 @@ def require_folder(folder: Path) -> None:
     """Raise a BundleIncomplete if a path cannot be a bundle, because nothing or a file is there."""
     if not os.path.lexists(folder):
         near = checks.near_files(folder) or "`scene2hap bake`, or `bake(scene).save(folder)`, writes one."
-        raise BundleIncomplete(f"there is no folder {str(folder)!r}. {near}")
+        raise BundleIncomplete(f"there is no folder {quoted(folder)}. {near}")
     if os.path.isfile(folder):
         how = (
             "give its folder"
             if folder.name == MANIFEST
             else "`scene2hap bake`, or `bake(scene)`, makes a bundle of a scene"
         )
-        raise BundleIncomplete(f"{str(folder)!r} is a file; a bundle is a folder: {how}.")
+        raise BundleIncomplete(f"{quoted(folder)} is a file; a bundle is a folder: {how}.")
 
 
 def our_files(folder: Path) -> frozenset[str]:

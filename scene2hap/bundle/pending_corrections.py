@@ -39,6 +39,7 @@ def corrections_digest(override: Override, state: str) -> str:
     clip, by_state = override.clip, (override.intensity, override.pitch_hz)
     given = [str(numbers.get(state, numbers.get(ANY_STATE, ""))) for numbers in by_state]
     given += [] if clip is None else [sound_digest(clip), str(override.keep), str(clip.is_vibration)]
+    given += [] if clip is None or clip.loop is None else [str(clip.loop)]
     return sha256(" ".join(given).encode()).hexdigest()[:16] if any(given) else ""
 
 

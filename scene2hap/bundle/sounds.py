@@ -11,7 +11,7 @@ import hashlib
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +34,7 @@ def write_loops(bundle: BundleContents, put: Callable[[str, bytes], None]) -> di
     users: dict[tuple[str, str], list[str]] = {}
     for stem, loop in _stems(bundle):
         for kind, clip in _clips(loop).items():
-            digest = digests.setdefault(id(clip), "") or sound_digest(clip)
+            digest = digests.setdefault(id(clip), "") or f"{sound_digest(clip)} {clip.loop}"
             digests[id(clip)] = digest
             users.setdefault((kind, digest), []).append(stem)
     names: dict[tuple[str, str], str] = {}
@@ -75,7 +75,7 @@ class SoundReader:
         """Read one loop. Raises: AudioError: a sound cannot be used; BundleError: its file; KeyError, TypeError."""
         credit = Credit(**row["credit"])
         audible, tactile = (self._clip(row[kind], credit) for kind in ("audible", "tactile"))
-        source = self._clip(row["source"], credit) if "source" in row else None
+        source = self._clip(row["source"], credit, marked=True) if "source" in row else None
         fingerprint = row.get("fingerprint", {})
         if not isinstance(fingerprint, dict) or not all(isinstance(value, str) for value in fingerprint.values()):
             raise TypeError("'fingerprint', which must be an object of texts")
@@ -84,13 +84,14 @@ class SoundReader:
         start_up, wind_down = (RunCurve(**row[name]) if name in row else None for name in _RUNS)
         return HapticLoop(audible, tactile, *frequencies, source, fingerprint, felt, start_up, wind_down)
 
-    def _clip(self, name: str, credit: Credit) -> AudioClip:
+    def _clip(self, name: str, credit: Credit, *, marked: bool = False) -> AudioClip:
+        """Return a sound, with its marked loop only on request: other files are loops as a whole."""
         path = own_file(self._folder, name)
         if (path, credit) not in self._clips:
             if path not in self._files:
                 self._files[path] = read_clip(path, credit)
-            samples, rate = self._files[path].samples, self._files[path].sample_rate_hz
-            self._clips[path, credit] = AudioClip(samples, rate, credit)
+            read = self._files[path]
+            self._clips[path, credit] = replace(read, credit=credit, loop=read.loop if marked else None)
         return self._clips[path, credit]
 
 
@@ -130,10 +131,11 @@ def _clips(loop: HapticLoop) -> dict[str, AudioClip]:
 def _write(put: Callable[[str, bytes], None], stems: list[str], kind: str, clip: AudioClip) -> str:
     shared = f"{stems[0]}+{len(stems) - 1}" if len(stems) > 1 else stems[0]  # no stem holds a plus sign
     # Loops are WAV, since people edit them. The longer source sounds are only kept, so they are compressed.
-    if kind == "source" and fits_flac(clip.sample_rate_hz):
+    # FLAC keeps no mark of a loop.
+    if kind == "source" and clip.loop is None and fits_flac(clip.sample_rate_hz):
         name = f"sounds/{shared}.{kind}.flac"
         put(name, encoded(clip.samples, clip.sample_rate_hz, container="FLAC", path=Path(name)))
     else:
         name = f"sounds/{shared}.{kind}.wav"
-        put(name, encoded(clip.samples, clip.sample_rate_hz, path=Path(name), is_loop=kind != "source"))
+        put(name, encoded(clip.samples, clip.sample_rate_hz, path=Path(name), is_loop=kind != "source", loop=clip.loop))
     return name

@@ -134,15 +134,20 @@ class CommandParser(argparse.ArgumentParser):
         for action in self._actions:
             if isinstance(action.choices, Mapping) and message.endswith(str(action.metavar)):
                 message = f"{message}, one of {', '.join(action.choices)}"
-        super().error(f"{message}{self._hint()}")
+        super().error(f"{message}{self._hint(message)}")
 
-    def _hint(self) -> str:
-        """Return how to write the first argument that may be a name but looks like an option."""
+    def _hint(self, message: str) -> str:
+        """Return how to write the first argument that may be a name but looks like an option, or a similar option."""
         if self._given and self._given[0] in self.of_commands:
             return f". Write {self._given[0]} after the command"
+        _, is_unknown, unknown = message.partition("unrecognized arguments: ")
         for text in self._given:
-            if text == "--":
+            if text == "--" or "invalid choice" in message:
                 break
+            if is_unknown and text not in unknown.split():  # an option of the command, which this parser does not know
+                continue
+            if text.startswith("--") and (near := did_you_mean(text.partition("=")[0], self._options())):
+                return f". {near}"
             is_option = text.startswith("--") or text[:2] in self._option_string_actions
             if (
                 len(text) > 1
@@ -154,6 +159,14 @@ class CommandParser(argparse.ArgumentParser):
                     return f". {text!r} is not a number; write it without its unit, as {number[1]}"
                 return f". {text!r} is read as an option; write -- before names, or ./{text} for a file"
         return ""
+
+    def _options(self) -> list[str]:
+        """Return the options of the command and verb in the arguments."""
+        parser: argparse.ArgumentParser = self
+        for text in self._given:
+            verbs = next((one.choices for one in parser._actions if isinstance(one.choices, Mapping)), {})
+            parser = verbs.get(text, parser)
+        return [name for name in parser._option_string_actions if name.startswith("--")]
 
     def _print_message(self, message: str, file: Any = None) -> None:
         # Some versions of argparse raise this error and others ignore it; `Console.close` reports failed output.

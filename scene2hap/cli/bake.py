@@ -15,7 +15,8 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
-from scene2hap.baking.corrections import bundle_with_locked, readable_bundle
+from scene2hap.baking.corrections import bundle_before, readable_bundle
+from scene2hap.baking.questions import count_questions
 from scene2hap.bundle.account import write_account
 from scene2hap.bundle.folder import read_overrides, write_edited
 from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
@@ -25,10 +26,8 @@ from scene2hap.cli.edit import is_other, require_steps
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
 from scene2hap.errors import BundleError, ConfigError
-from scene2hap.llm.chain.dry_run import dry_run
 from scene2hap.llm.chain.report import InferenceReport
-from scene2hap.llm.lexicon import LexiconBackend
-from scene2hap.llm.wrappers import identity, innermost, is_remote
+from scene2hap.llm.wrappers import is_remote
 from scene2hap.llm.wrappers.prices import price_list
 from scene2hap.scene.capture import capture_images
 from scene2hap.scene.capture.given_pictures import GivenPictures
@@ -127,7 +126,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             progress=tell,
             on_report=accounts.append,
             overrides=overrides,
-            earlier=bundle_with_locked(target, overrides),
+            earlier=before or bundle_before(target, overrides),
         )
     kept = is_there and (before is None or is_other(before, bundle))
     folder = write_edited(bundle, target, before) if kept else bundle.save(target)
@@ -158,19 +157,6 @@ def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console
     scene = read_scene(arguments)
     if pictures:
         scene = capture_images(scene)
-    model, prices = identity(config.llm).get("model", "no model behind an address"), config.prices
-    if isinstance(innermost(config.llm), LexiconBackend):
-        model, prices = "lexicon", {**(prices or {}), "lexicon": (0.0, 0.0)}
-    estimate = asyncio.run(
-        dry_run(
-            scene,
-            str(model),
-            user_prompt=arguments.prompt,
-            config=config,
-            detail=identity(config.llm).get("detail", "low"),
-            prices=prices,
-            service_tier=getattr(innermost(config.llm), "service_tier", ""),
-        )
-    )
+    estimate = asyncio.run(count_questions(scene, config, user_prompt=arguments.prompt))
     console.table(f"{scene.name}: questions of a bake", ("item", ">number"), estimate.rows())
     return estimate.as_json()

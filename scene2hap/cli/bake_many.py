@@ -3,6 +3,7 @@
 scene2hap bake-many levels/*.glb -o bundles/
 scene2hap bake-many levels/*.glb -o bundles/ --executor processes
 scene2hap bake-many levels/*.glb -o bundles/ --executor dask:tcp://10.0.0.1:8786 --llm openai:gpt-4o --max-cost 20
+scene2hap bake-many levels/*.glb -o bundles/ --llm openai:gpt-4o --dry-run
 
 Scenes are kept if their file and settings have not changed. A failed scene does not stop the others; the exit status is
 then 1. BUNDLES/report.json has the results of every scene.
@@ -14,13 +15,16 @@ import argparse
 import glob
 import os
 import time
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.many import ManyReport, bake_many
+from scene2hap.baking.many import ManyReport, bake_many, plan_many
 from scene2hap.cli.bake import add_model_arguments, add_scene_arguments, bake_settings, scene_options
 from scene2hap.cli.console import Console
+from scene2hap.common.counted import counted
+from scene2hap.common.printable import quoted
 from scene2hap.errors import ConfigError, SceneError
 from scene2hap.llm.wrappers import is_remote
 
@@ -28,6 +32,9 @@ from scene2hap.llm.wrappers import is_remote
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``scene2hap bake-many``."""
     add_many_arguments(parser, "+")
+    parser.add_argument(
+        "--dry-run", action="store_true", help="show what would be baked, and calls and cost; no model is called"
+    )
 
 
 def add_many_arguments(parser: argparse.ArgumentParser, n_scenes: str) -> None:
@@ -45,6 +52,8 @@ def add_many_arguments(parser: argparse.ArgumentParser, n_scenes: str) -> None:
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Bake, and show the outcome of each scene. Raises: SceneError: some were not baked."""
     config = BakeConfig.parse(many_settings(arguments))
+    if arguments.dry_run:
+        return _dry_run(arguments, config, console)
     begun = time.monotonic()
     with console.progress() as tell:
 
@@ -58,7 +67,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             config=config,
             executor=arguments.executor,
             options=scene_options(arguments),
-            pictures=is_remote(config.llm) if arguments.pictures is None else arguments.pictures,
+            pictures=_pictures(arguments, config),
             user_prompt=arguments.prompt,
             progress=progress,
         )
@@ -69,6 +78,40 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             console.outcome(outcome)
         raise SceneError(f"{len(report.failed)} of {len(report.scenes)} scenes were not baked; run again to go on.")
     return outcome
+
+
+def _pictures(arguments: argparse.Namespace, config: BakeConfig) -> bool:
+    return is_remote(config.llm) if arguments.pictures is None else bool(arguments.pictures)
+
+
+def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console) -> dict[str, Any]:
+    with console.progress() as tell:
+        plans = plan_many(
+            files(arguments.scenes),
+            arguments.output,
+            config=config,
+            options=scene_options(arguments),
+            pictures=_pictures(arguments, config),
+            user_prompt=arguments.prompt,
+            progress=lambda stage, name, done, total: tell("planning", f"{name} ({stage})", done, total),
+        )
+    rows = []
+    for one in plans:
+        asked = one.questions
+        calls = ("-", "-", "-") if asked is None else (str(asked.n_calls), str(asked.kept), _shown(asked.cost_usd))
+        rows.append((Path(one.bundle).stem, str(one), str(one.n_objects or "-"), *calls))
+    console.table("what would be done", ("scene", "plan", ">objects", ">calls", ">from cache", ">about $"), rows)
+    for one in plans:
+        if one.error:
+            console.fail(f"{one.scene}: {one.error}")
+    counts = ", ".join(f"{n} to {plan}" for plan, n in Counter(map(str, plans)).items())
+    found = [one.questions for one in plans if one.questions is not None]
+    costs = [asked.cost_usd for asked in found]
+    cost = None if None in costs else sum(cost for cost in costs if cost is not None)
+    n_calls, n_kept = sum(asked.n_calls for asked in found), sum(asked.kept for asked in found)
+    told = f"{counted(n_calls, 'call')}, {n_kept} in the cache, about {_shown(cost)} dollars"
+    console.say(f"{counted(len(plans), 'scene')}: {counts}{f'; {told}' if found else ''}")
+    return {"calls": n_calls, "calls_kept": n_kept, "cost_usd": cost, "scenes": [one.to_data() for one in plans]}
 
 
 def many_settings(arguments: argparse.Namespace) -> dict[str, Any]:
@@ -83,9 +126,13 @@ def files(given: list[str]) -> list[str]:
     for one in given:
         matches = [one] if os.path.exists(one) or not glob.has_magic(one) else sorted(glob.glob(one, recursive=True))
         if not matches:
-            raise ConfigError(f"no file matches {one!r}. Check the pattern.")
+            raise ConfigError(f"no file matches {quoted(one)}. Check the pattern.")
         found += matches
     return list(dict.fromkeys(found))
+
+
+def _shown(cost_usd: float | None) -> str:
+    return "unknown" if cost_usd is None else f"{cost_usd:.2f}"
 
 
 def _show(console: Console, report: ManyReport) -> None:

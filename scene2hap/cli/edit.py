@@ -52,6 +52,7 @@ from scene2hap.cli.shared_options import add_backend_arguments, add_loop_argumen
 from scene2hap.cli.tables import show_report
 from scene2hap.common.counted import counted
 from scene2hap.common.file_stamp import file_stamp
+from scene2hap.common.printable import quoted
 from scene2hap.errors import BundleChanged, BundleError, Scene2HapError
 from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.wrappers import is_remote
@@ -215,6 +216,9 @@ def _edit_once(arguments: argparse.Namespace, config: BakeConfig, console: Conso
     changes = [row for row in all_changes if row.what != "actuator" and not row.what.startswith("loop ")]
     for object_id, what, old, new in changes:
         console.say(f"{object_id}, {what}: {old} -> {new}")
+    if arguments.verb == "sound" and (clip := after.overrides[arguments.id].clip) is not None and clip.loop is not None:
+        first_s, end_s = (edge / clip.sample_rate_hz for edge in clip.loop)
+        console.say(f"the loop that {arguments.clip} marks is used, {first_s:.2f} to {end_s:.2f} s")
     if remade:
         rows = [
             (key, state, ", ".join(_IN_WORDS.get(one, one) for one in why))
@@ -322,7 +326,7 @@ def _undone(bundle: HapticBundle | None, remaking: Rebake) -> HapticBundle:
     steps = steps_beside(folder, kind)
     if not steps:
         reason = f"; up to {MOST_STEPS} steps are kept" if verb == "undo" else "; an edit after an undo removes it"
-        raise BundleError(f"there is nothing to {verb}: {str(step_beside(folder, kind))!r} does not exist{reason}.")
+        raise BundleError(f"there is nothing to {verb}: {quoted(step_beside(folder, kind))} does not exist{reason}.")
     return HapticBundle.load(steps[0])
 
 

@@ -9,6 +9,7 @@ from typing import Any
 from scene2hap.audio.haptic_loop import HapticLoop, Sensation
 from scene2hap.audio.threshold import NOTICED_DB
 from scene2hap.bundle import HapticBundle
+from scene2hap.bundle.edited_loops import is_edited
 from scene2hap.cli.console import Console
 from scene2hap.common.counted import counted
 from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
@@ -76,6 +77,7 @@ def bundle_outcome(bundle: HapticBundle) -> dict[str, Any]:
                         "raw_hz": loop.frequency_raw_hz,
                         "tactile_hz": loop.frequency_tactile_hz,
                         "felt": None if loop.felt is None else asdict(loop.felt),
+                        "is_edited": is_edited(loop),
                         **_times_outcome(haptics, state, loop),
                     }
                     for state, loop in bundle.loops.get(object_id, {}).items()
@@ -145,11 +147,14 @@ def _bundle_row(bundle: HapticBundle, object_id: str) -> tuple[str, ...]:
 
 
 def place_of(loop: HapticLoop) -> str:
-    """Format the most felt frequency of a loop, its origin if moved by more than a hertz, and its roughness [Hz]."""
+    """Format the most felt frequency of a loop, its origin if moved by more than a hertz, and its roughness [Hz]; as it
+    was made, if a person has edited it since."""
     felt, place = loop.felt, f"{loop.frequency_tactile_hz:.0f}"
     if felt is not None and felt.is_moved:
         place += f" from {felt.own_hz:.0f}"
-    return place if felt is None or felt.rough_hz is None else f"{place} rough {felt.rough_hz:.0f}"
+    if felt is not None and felt.rough_hz is not None:
+        place += f" rough {felt.rough_hz:.0f}"
+    return f"{place}, edited" if is_edited(loop) else place
 
 
 def times_of(state: SourceState, loop: HapticLoop | None) -> str:

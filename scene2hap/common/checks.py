@@ -225,6 +225,11 @@ def whole(
     return int(result)
 
 
+def seed(value: object, *, error: type[Scene2HapError]) -> int:
+    """Return a seed, a whole number of 64 bits, with or without a sign; else raise `error`."""
+    return whole("seed", value, "-", at_least=-(2**63), at_most=2**64 - 1, error=error)
+
+
 def flag(name: str, value: object, *, error: type[Scene2HapError]) -> bool:
     """Return `value` if it is True or False, else raise `error`. Python takes any text as true, even "no"."""
     if value is True or value is False:

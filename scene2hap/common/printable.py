@@ -21,6 +21,12 @@ def printable(text: str, *, lines: bool = False) -> str:
     return pattern.sub(lambda found: found.group().encode("unicode_escape").decode("ascii"), text)
 
 
+def quoted(path: object) -> str:
+    """Return a path in quotes, for a message. `repr` would double each backslash of a path of Windows."""
+    text = printable(str(path))
+    return f'"{text}"' if "'" in text else f"'{text}'"
+
+
 def aligned(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
     """Yield the lines of a table without a frame. Each column is as wide as its widest cell, up to `_WIDEST`.
 

@@ -12,6 +12,7 @@ import soundfile
 from scene2hap.audio.files import LARGEST_WAV_BYTES
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
+from scene2hap.common.printable import quoted
 from scene2hap.common.text_files import draft_path, path_in_c, put_in_place
 from scene2hap.devices.exclusive_use import claim, give_back
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
@@ -36,13 +37,13 @@ class WavSink(PulledSink):
         self.path: Path = checks.path("path", path, error=ConfigError)
         if not self.path.name or os.path.isdir(self.path):
             raise ConfigError(
-                f"path {str(path)!r} is a folder; give that of a file, as {str(self.path / 'touch.wav')!r}."
+                f"path {quoted(path)} is a folder; give that of a file, as {quoted(self.path / 'touch.wav')}."
             )
         if os.path.exists(self.path) and not os.path.isfile(self.path):
-            raise ConfigError(f"path {str(path)!r} is a device or a pipe; give that of a file.")
+            raise ConfigError(f"path {quoted(path)} is a device or a pipe; give that of a file.")
         if self.path.suffix.lower() not in ("", ".wav", ".wave", ".rf64"):
             raise ConfigError(
-                f"path is {str(path)!r}; WavSink writes WAV, so that it must end in .wav, or for takes of more than "
+                f"path is {quoted(path)}; WavSink writes WAV, so that it must end in .wav, or for takes of more than "
                 "4 GiB in .rf64."
             )
         self._container = "RF64" if self.path.suffix.lower() == ".rf64" else "WAV"

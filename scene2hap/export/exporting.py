@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from scene2hap.audio.files import read_channels
+from scene2hap.audio.loop_marks import marked_loop
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.sounds import file_stem, file_stems
 from scene2hap.clips.reading import is_haptic_clip, read_haptic_clip
@@ -101,9 +102,8 @@ def export_clip(
     """Write one haptic clip (.haptic, .ahap) or one sound file in other formats. The curves of a clip are unchanged.
 
     A sound file is taken as a vibration, as `convert` and `render` write it. Two channels are the left and the right
-    hand, more are "channel_1" and so on. A file that peaks above full scale is scaled down to it.
-
-    A constant offset is removed.
+    hand, more are "channel_1" and so on. A file that peaks above full scale is scaled down to it. A constant offset is
+    removed. A WAV that marks all of itself as a loop, as those of a bundle do, is written as a loop.
 
     Raises: AudioError, ClipError: the file cannot be read; and as `export_bundle`.
     """
@@ -117,7 +117,8 @@ def export_clip(
         samples = _without_offset(read.astype(np.float64), rate)
         samples = samples / max(1.0, float(np.abs(samples).max()))  # one factor: clipping would distort
         names = _CHANNEL_NAMES.get(samples.shape[1], [f"channel_{i + 1}" for i in range(samples.shape[1])])
-        channels = {name: Channel(one, rate) for name, one in zip(names, samples.T, strict=True)}
+        is_loop = marked_loop(path, len(samples), rate) == (0, len(samples))
+        channels = {name: Channel(one, rate, is_loop) for name, one in zip(names, samples.T, strict=True)}
     track = Track(file_stem(path.stem), channels)
     return _write([track], exporters, folder, None, progress)
 

@@ -14,6 +14,7 @@ from typing import Any
 from scene2hap.bundle import HapticBundle
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
+from scene2hap.common.printable import quoted
 from scene2hap.common.text_files import require_place, write_whole
 from scene2hap.errors import ConfigError, unwritable
 from scene2hap.report.document import report_document
@@ -59,7 +60,7 @@ def require_target(path: str | os.PathLike[str]) -> Path:
     """
     target = checks.path("path", path, error=ConfigError)
     if target.suffix.lower() not in _SUFFIXES:
-        raise ConfigError(f"{str(target)!r} must end in .html, for a page, or in .json, for its data.")
+        raise ConfigError(f"{quoted(target)} must end in .html, for a page, or in .json, for its data.")
     try:
         require_place(target)
     except OSError as cause:

@@ -10,6 +10,7 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 from scene2hap.common import checks
+from scene2hap.common.printable import quoted
 from scene2hap.common.text_files import LFS_ADVICE, is_lfs_pointer, is_there
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
@@ -44,7 +45,7 @@ def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
 
 def address(place: str, name: str) -> SceneError:
     """Return the error of a name that is an address."""
-    return SceneError(f"{place} wants {name!r}. Addresses are never fetched: store the file beside the scene.")
+    return SceneError(f"{place} wants {quoted(name)}. Addresses are never fetched: store the file beside the scene.")
 
 
 def outside(place: str, name: str, assets_root: Path, *paths: Path) -> SceneError:
@@ -58,8 +59,8 @@ def outside(place: str, name: str, assets_root: Path, *paths: Path) -> SceneErro
         nearest = Path(assets_root.anchor)
     needed = "<a folder that holds both>" if nearest == Path(nearest.anchor) else repr(str(nearest))
     return SceneError(
-        f"{place} wants {name!r}, which lies outside {str(assets_root)!r}; only files inside it are read. Copy it "
-        f"there, or, if you trust the file, give assets_root={needed} (--assets-root)."
+        f"{place} wants {quoted(name)}, which lies outside {quoted(assets_root)}; only files inside it are read. Copy "
+        f"it there, or, if you trust the file, give assets_root={needed} (--assets-root)."
     )
 
 
@@ -72,7 +73,7 @@ def usable_name(name: str, place: str) -> Iterator[None]:
         raise
     # A broken address, a name that is too long, a zero byte or a cycle of links raises one of these errors.
     except (ValueError, OSError, RuntimeError) as cause:
-        raise SceneError(f"{place} wants {name!r}, which is no usable file name: {reason_of(cause)}.") from cause
+        raise SceneError(f"{place} wants {quoted(name)}, which is no usable file name: {reason_of(cause)}.") from cause
 
 
 def read_bytes(path: Path) -> bytes:
@@ -85,7 +86,7 @@ def read_bytes(path: Path) -> bytes:
     try:
         return path.read_bytes()
     except OSError as cause:
-        raise SceneError(f"{str(path)!r} cannot be read: {reason_of(cause)}.") from cause
+        raise SceneError(f"{quoted(path)} cannot be read: {reason_of(cause)}.") from cause
 
 
 def decoded(data: bytes) -> str:
@@ -107,15 +108,15 @@ def check_file(path: Path) -> None:
     try:
         if not is_there(path):
             near = checks.near_files(path) or "Check the path, or export the scene with all its files."
-            raise SceneError(f"there is no file {str(path)!r}. {near}")
+            raise SceneError(f"there is no file {quoted(path)}. {near}")
         if (path / "bundle.json").exists():
             raise SceneError(
-                f"{str(path)!r} is the folder of a bundle, not a scene file. Give the file it was baked "
+                f"{quoted(path)} is the folder of a bundle, not a scene file. Give the file it was baked "
                 "from. Without it, `scene2hap edit BUNDLE rebake`, or `rebake(HapticBundle.load(path))`, bakes again; "
                 "the scene is the bundle's .snapshot."
             )
         if not path.is_file():
-            raise SceneError(f"{str(path)!r} is not a file; give the path of the scene file itself, not its folder.")
+            raise SceneError(f"{quoted(path)} is not a file; give the path of the scene file itself, not its folder.")
         limits.at_most(f"the size of {path.name!r} in bytes", path.stat().st_size, "MAX_FILE_BYTES")
         is_empty = path.stat().st_size == 0
         is_pointer = is_lfs_pointer(path)
@@ -123,7 +124,7 @@ def check_file(path: Path) -> None:
         raise
     # ValueError: the name contains a zero byte.
     except (OSError, ValueError) as cause:
-        raise SceneError(f"{str(path)!r} cannot be read: {reason_of(cause)}.") from cause
+        raise SceneError(f"{quoted(path)} cannot be read: {reason_of(cause)}.") from cause
     if is_empty:
         raise SceneFormatError(f"{path.name!r} is empty (0 bytes). Export it again.")
     if is_pointer:

@@ -14,6 +14,7 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
 from scene2hap.common.file_stamp import Stamp, file_stamp
+from scene2hap.common.printable import quoted
 from scene2hap.errors import BundleError, Scene2HapError
 from scene2hap.session import HapticSession
 from scene2hap.session.worker_threads import start_worker
@@ -39,7 +40,7 @@ class BundleWatch:
         self.problem: str = ""
         self._session, self._folder = session, checks.path("folder", folder, error=BundleError)
         if not os.path.isdir(self._folder):
-            raise BundleError(f"there is no folder {str(self._folder)!r} to watch; `bake` and `save` write one.")
+            raise BundleError(f"there is no folder {quoted(self._folder)} to watch; `bake` and `save` write one.")
         # A deque, since the worker may publish a bundle at any step of `update`.
         self._read: deque[HapticBundle] = deque(maxlen=1)
         self._closed = Event()

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, field_validator
 
 from scene2hap.common import checks
+from scene2hap.common.printable import quoted
 from scene2hap.common.settings import Settings
 from scene2hap.common.text_files import write_whole
 from scene2hap.errors import ConfigError, unwritable
@@ -115,7 +116,7 @@ class UserProfile(LevelAndLimit):
         document: dict[str, Any] = {self.of_what: self.model_dump(mode="json", exclude_defaults=True)}
         file = checks.path("path", path, error=ConfigError)
         if file.suffix != ".json":
-            raise ConfigError(f"path is {str(file)!r}; a profile is saved as JSON, in a file that ends in .json.")
+            raise ConfigError(f"path is {quoted(file)}; a profile is saved as JSON, in a file that ends in .json.")
         try:
             write_whole(file, json.dumps(document, indent=1, ensure_ascii=False) + "\n")
         except OSError as cause:

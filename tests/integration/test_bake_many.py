@@ -41,7 +41,7 @@ from scene2hap import (
     load_scene,
     rebake,
 )
-from scene2hap.baking.many import tasks
+from scene2hap.baking.many import plan_many, tasks
 from scene2hap.baking.many.record import scene_digest
 from scene2hap.baking.many.report import ManyReport
 from scene2hap.baking.many.run import abake_many
@@ -199,6 +199,51 @@ def test_model_is_queried_from_the_main_process_once_per_question(
         assert again.kept == again.calls
     assert digests(tmp_path / "a") == digests(tmp_path / "b")
     assert not list((tmp_path / "a" / ".bake-many").glob("*.draft"))
+
+
+def test_a_plan_says_what_a_run_will_do_and_asks_nothing(scenes: list[Path], plain: None, tmp_path: Path) -> None:
+    twins = [scenes[0], Path(shutil.copy(scenes[0], tmp_path / "twin.json"))]
+    with serving(by=answered) as server:
+        config = {
+            "llm": {"kind": "local", "model": "scripted", "base_url": f"{server.base_url}/v1"},
+            "cache_dir": str(tmp_path / "cache"),
+            "prices": {"scripted": (1.0, 1.0)},
+        }
+        before = plan_many(twins, tmp_path / "a", config=config)
+        assert not server.asked
+        assert not (tmp_path / "a").exists()
+        report = bake_many(scenes[:2], tmp_path / "a", config=config)
+        n_asked = len(server.asked)
+        after = plan_many([*scenes[:2], tmp_path / "absent.glb"], tmp_path / "a", config=config)
+        again = plan_many(scenes[:2], tmp_path / "a", config={**config, "actuator": "lra"})
+        assert len(server.asked) == n_asked
+    one, twin = (plan.questions for plan in before)
+    assert one is not None
+    assert twin is not None
+    assert [plan.plan for plan in before] == ["bake", "bake"]
+    assert (one.kept, twin.n_calls, twin.kept) == (0, 0, one.n_calls)
+    assert one.calls["object_analyzer"] == 2
+    assert one.cost_usd is not None
+    assert one.cost_usd > 0.0
+    assert [one.plan for one in after] == ["keep", "keep", "fail"]
+    assert "absent.glb" in after[2].error
+    assert [one.plan for one in again] == ["bake", "bake"]
+    assert [(asked.n_calls, asked.cost_usd) for one in again if (asked := one.questions)] == [(0, 0.0), (0, 0.0)]
+    assert sum(one.questions.kept for one in again if one.questions) == report.calls
+
+
+def test_the_command_shows_a_plan(scenes: list[Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    command = ["bake-many", *map(str, scenes[:2]), "-o", str(tmp_path / "out"), "--dry-run"]
+    assert (
+        main([*command, "--llm", "openai:gpt-4o", "--no-pictures", "--cache", str(tmp_path / "cache"), "--json"]) == 0
+    )
+    told = json.loads(capsys.readouterr().out)
+    assert [one["plan"] for one in told["scenes"]] == ["bake", "bake"]
+    assert told["calls"] > 0
+    assert 0.0 < told["cost_usd"] < 1.0
+    assert main(command) == 0
+    assert "2 scenes: 2 to bake" in capsys.readouterr().out
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_model_reads_the_name_that_a_person_gave(plain: None, tmp_path: Path) -> None:

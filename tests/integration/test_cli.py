@@ -260,6 +260,25 @@ def test_a_name_like_an_option_is_explained(capsys: pytest.CaptureFixture[str], 
     assert f"'{words[-1]}' is read as an option; write -- before names" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["bake", "x.glb", "-o", "b.bundle", "--actuater", "lra"], "--actuater lra. Did you mean '--actuator'?"),
+        (["edit", "b.bundle", "sound", "fan", "x.wav", "--wach"], "--wach. Did you mean '--watch'?"),
+        (["bake", "x.glb", "-o", "b.bundle", "--zzz"], "unrecognized arguments: --zzz\n"),
+        (["bakke", "x.glb", "-o", "b.bundle"], "Did you mean 'bake'"),
+    ],
+)
+def test_an_unknown_option_does_not_blame_a_known_one(
+    words: list[str], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        main(words)
+    said = capsys.readouterr().err
+    assert told in said
+    assert "'-o' is read as an option" not in said
+
+
 def test_an_option_of_commands_before_the_command_is_explained(capsys: pytest.CaptureFixture[str]) -> None:
     for words, is_told in ((["--json", "inspect", "x.glb"], True), (["inspect", "x.glb", "--json", "--bogus"], False)):
         with pytest.raises(SystemExit):

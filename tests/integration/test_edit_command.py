@@ -574,6 +574,27 @@ def test_a_bake_keeps_a_bundle_that_cannot_be_read(fan: Path, tmp_path: Path) ->
     assert (fan.with_name("kitchen.bundle.before") / "objects.json").read_bytes() == answers
 
 
+@pytest.mark.parametrize("factor", [0.5, 8.0])
+def test_a_bake_keeps_a_loop_that_was_edited_by_hand_or_the_folder_that_has_it(
+    fan: Path, tmp_path: Path, factor: float, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A file of floats may peak over full scale, and no bundle can store it."""
+    file = next((fan / "sounds").glob("*.tactile.wav"))
+    samples, rate = soundfile.read(file)
+    soundfile.write(file, samples * factor, rate, subtype="FLOAT")
+    edited = file.read_bytes()
+    assert main(["bake", room(tmp_path, "fan"), "-o", str(fan)]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    now, _ = soundfile.read(next((fan / "sounds").glob("*.tactile.wav")))
+    assert (", edited" in said) == (factor < 1.0)
+    if factor < 1.0:
+        np.testing.assert_allclose(now, samples * factor, atol=2**-23)
+    else:
+        np.testing.assert_allclose(now, samples, atol=2**-23)
+        assert "peaks over full scale" in said
+        assert (fan.with_name("kitchen.bundle.before") / "sounds" / file.name).read_bytes() == edited
+
+
 def test_reset_takes_back_the_corrections_of_one_object(
     kitchen: Callable[..., Path], capsys: pytest.CaptureFixture[str]
 ) -> None:

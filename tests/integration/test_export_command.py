@@ -23,6 +23,7 @@ from scene2hap import (
     export_bundle,
     export_clip,
 )
+from scene2hap.audio.files import encoded, read_clip
 from scene2hap.cli import main
 from scene2hap.clips.haptic_format import read_haptic
 from scene2hap.clips.reading import read_haptic_clip
@@ -147,6 +148,18 @@ def test_a_sound_beyond_full_scale_is_scaled_down(tmp_path: Path) -> None:
     export_clip(tmp_path / "loud.wav", tmp_path / "out", "wav")
     played, _ = soundfile.read(next((tmp_path / "out" / "wav").glob("*.wav")))
     np.testing.assert_allclose(played, loud / 2.0, atol=1e-4)
+
+
+@pytest.mark.parametrize("loop", [None, (0, 1000), (200, 1000)])
+def test_a_sound_file_that_is_marked_as_a_loop_stays_one(loop: tuple[int, int] | None, tmp_path: Path) -> None:
+    hum = 0.5 * np.sin(2 * np.pi * 104 * np.arange(1000) / 8000)  # 13 cycles
+    (tmp_path / "hum.wav").write_bytes(encoded(hum, 8000, loop=loop))
+    export_clip(tmp_path / "hum.wav", tmp_path / "out", [{"kind": "pcm", "sample_rate_hz": 2000}, "wav"])
+    header = json.loads((tmp_path / "out" / "pcm" / "hum.json").read_text())
+    is_loop = loop == (0, 1000)
+    assert header["loop"] is is_loop
+    played = read_clip(tmp_path / "out" / "wav" / "hum.wav")
+    assert played.loop == ((0, len(played.samples)) if is_loop else None)
 
 
 def test_a_constant_offset_is_no_vibration(tmp_path: Path) -> None:

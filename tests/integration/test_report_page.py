@@ -249,6 +249,15 @@ def test_paper_is_light_and_holds_the_whole_table(browser: Any, html: str, tmp_p
     page.set_viewport_size({"width": 1280, "height": 500})  # on the screen the table must be scrolled
     hidden = "(box => box.scrollHeight - box.clientHeight)(document.querySelector('.table-box'))"
     assert page.evaluate(hidden) > 10
+    # Read before a frame could be drawn, as a printer does: the browser draws none for it.
+    corner = """() => {
+      dispatchEvent(new Event('beforeprint'));
+      const gl = document.querySelector('#canvas').getContext('webgl2'), pixel = new Uint8Array(4);
+      gl.readPixels(2, 2, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+      return [...pixel];
+    }"""
+    assert page.evaluate(corner) == [0xE9, 0xEB, 0xEE, 255]
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
     page.emulate_media(media="print", color_scheme="dark")
     page.evaluate("dispatchEvent(new Event('beforeprint'))")
     assert page.evaluate(theme) == "light"

@@ -18,6 +18,7 @@ from scene2hap.audio.files import READABLE, SUFFIXES
 from scene2hap.audio.haptic_loop import LevelWarning
 from scene2hap.audio.tactile import DEFAULT_CONVERTER
 from scene2hap.common.counted import first_of
+from scene2hap.common.printable import quoted
 from scene2hap.common.text_files import drafts_of
 from scene2hap.common.worker_processes import as_finished, most_workers, worker_processes
 from scene2hap.errors import AudioError, Scene2HapError, unwritable
@@ -69,7 +70,7 @@ def convert_files(
     settings |= {"converter": converter, "actuator": actuator, "intensity": intensity}
     jobs, failures = _planned([Path(source) for source in sources], Path(output), suffix)
     if not jobs and not failures:
-        given = first_of([repr(str(source)) for source in sources], _MOST_NAMED) or "an empty list"
+        given = first_of([quoted(source) for source in sources], _MOST_NAMED) or "an empty list"
         raise AudioError(f"no sound file in {given}. Give {READABLE}, or a folder of them.")
     outcomes: dict[int, Conversion | Failure] = dict(failures)
     tell = progress or (lambda name, done, total: None)

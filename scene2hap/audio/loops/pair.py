@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -12,7 +13,7 @@ from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB, is_noise, most_felt_hz
-from scene2hap.audio.loops.seam import apply_seam
+from scene2hap.audio.loops.seam import Seam, apply_seam
 from scene2hap.audio.loops.seam_search import (
     CROSSFADE_S,
     LEAST_POWER,
@@ -41,14 +42,16 @@ def middle_of(clip: AudioClip) -> AudioClip:
     """Return the middle of a clip, long enough for the longest loop and a run-up for converters on either side.
 
     The seam search uses only this part, so the rest of the clip would never be heard. If the middle is a pause, the
-    nearest part with enough sound is taken.
+    nearest part with enough sound is taken. Of a clip with a marked loop, this loop is returned.
     """
+    if clip.loop is not None:
+        return clip.part(*clip.loop)
     rate = clip.sample_rate_hz
     n = round((MAX_LOOP_S + CROSSFADE_S + 2.0 * _RUN_UP_S) * rate)
     if len(clip.samples) <= n:
         return clip
     first = _first_of_middle(clip.samples, n, round(_RUN_UP_S * rate), max(1, round(_LEVEL_STEP_S * rate)))
-    return replace(clip, samples=clip.samples[first : first + n])
+    return clip.part(first, first + n)
 
 
 def _first_of_middle(x: Samples, n: int, run_up: int, step: int) -> int:
@@ -79,7 +82,8 @@ def loop_pair(
     chosen for both signals; each has its own fade law. The audible loop peaks at `AUDIBLE_PEAK_DBFS`, the tactile one
     at `context.intensity` times full scale less `TACTILE_HEADROOM_DB`. If the converter leaves only the recording's
     noise (`levels.is_noise`), this noise is not amplified. A clip that is a vibration already is looped whole. It is
-    converted only if its frequency is to be moved. A sound between silences without a beat is looped whole, too.
+    converted only if its frequency is to be moved. A sound between silences without a beat is looped whole, too. A loop
+    that a person marked is the audible loop as it is; its repetition is converted.
 
     Parameters: finish : last step for the tactile loop, such as equalizing it for an actuator.
     Raises: AudioError: the clip is shorter than `MIN_CLIP_S`, or the clip or its conversion is silent.
@@ -106,7 +110,7 @@ def loop_pair(
         felt = _with_peak(tactile, intensity * 10 ** (-TACTILE_HEADROOM_DB / 20))
         felt = felt if finish is None else finish(felt)
     # `is_vibration` decides how a clip is looped; a bundle does not store it for loops.
-    cut = replace(clip, is_vibration=False)
+    cut = replace(clip, is_vibration=False, loop=None)
     return HapticLoop(
         replace(cut, samples=_with_peak(audible, 10 ** (AUDIBLE_PEAK_DBFS / 20))),
         replace(cut, samples=felt),
@@ -120,6 +124,8 @@ def _looped(clip: AudioClip, converter: TactileConverter, context: ConversionCon
         vibration = clip if context.own_hz == context.target_hz else convert_clip(clip, converter, context)
         loop = whole_loop(vibration.samples, clip.sample_rate_hz)
         return loop, loop
+    if clip.loop is not None:
+        return _repeated(clip.part(*clip.loop), converter, context)
     if _repeats_whole(clip):
         converted = convert_clip(clip, converter, context, from_rest=True)
         if meets_itself(converted.samples):
@@ -127,6 +133,16 @@ def _looped(clip: AudioClip, converter: TactileConverter, context: ConversionCon
     converted = convert_clip(clip, converter, context)
     seam = find_seam(clip.samples, clip.sample_rate_hz, converted.samples)
     return apply_seam(clip.samples, seam), apply_seam(converted.samples, seam.fitted(converted.samples))
+
+
+def _repeated(loop: AudioClip, converter: TactileConverter, context: ConversionContext) -> tuple[Samples, Samples]:
+    """Return a clip that repeats as it is, and one period of its conversion, after as many as a converter needs."""
+    n, rate = len(loop.samples), loop.sample_rate_hz
+    n_before = math.ceil(_RUN_UP_S * rate / n)
+    repeated = replace(loop, samples=np.tile(loop.samples, n_before + 2), loop=None)
+    converted = convert_clip(repeated, converter, context).samples
+    seam = Seam(n_before * n, n, min(n, round(CROSSFADE_S * rate)), "linear").fitted(converted)
+    return loop.samples, apply_seam(converted, seam)
 
 
 def _repeats_whole(clip: AudioClip) -> bool:

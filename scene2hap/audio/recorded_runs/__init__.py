@@ -36,12 +36,17 @@ class RecordedRuns(NamedTuple):
     end: int
 
 
-def recorded_runs(samples: ArrayLike, sample_rate_hz: float) -> RecordedRuns:
-    """Look for a start and a stop in a recording (n,).
+def recorded_runs(samples: ArrayLike, sample_rate_hz: float, loop: tuple[int, int] | None = None) -> RecordedRuns:
+    """Look for a start and a stop in a recording (n,). With a marked loop [first, end), this is the steady running, and
+    a start or a stop that reaches into it does not count.
 
     A start rises from the room's level by at least 12 dB, within 0.2 to 10 s and without falling. The level that it
     reaches is steady for at least one second. Raises: AudioError: the samples are not one channel, (n,), n >= 1.
     """
+    if loop is not None:
+        found, (first, end) = recorded_runs(samples, sample_rate_hz), loop
+        start_up = found.start_up if found.first <= first else None
+        return RecordedRuns(start_up, found.wind_down if end <= found.end else None, first, end)
     rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=AudioError)
     x = np.asarray(samples, dtype=np.float64)
     if x.ndim != 1 or x.size == 0:

@@ -31,7 +31,7 @@ from filelock import AsyncFileLock
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.corrections import infer_corrected
 from scene2hap.baking.many.pool import Pool, Submits
-from scene2hap.baking.many.record import REPORT, WORK, Record, read_record, scene_digest, settings_digest, write_record
+from scene2hap.baking.many.record import REPORT, WORK, read_record, scene_digest, settings_digest, write_record
 from scene2hap.baking.many.report import ManyReport, SceneReport
 from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds, take_pictures
 from scene2hap.bundle import HapticBundle
@@ -39,6 +39,7 @@ from scene2hap.bundle.folder import read_overrides
 from scene2hap.bundle.sounds import file_stem
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
+from scene2hap.common.printable import quoted
 from scene2hap.common.run_coroutine import run_waiting
 from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import ConfigError, unwritable
@@ -141,7 +142,7 @@ async def abake_many(
 def scene_paths(scenes: Iterable[str | os.PathLike[str]]) -> list[Path]:
     """Return the scene files as paths. Raises: ConfigError: the list is empty, or is a single path."""
     if isinstance(scenes, str | os.PathLike):
-        raise ConfigError(f"scenes is the path {str(scenes)!r}; give a list of paths, as sorted(Path(...).glob(...)).")
+        raise ConfigError(f"scenes is the path {quoted(scenes)}; give a list of paths, as sorted(Path(...).glob(...)).")
     paths = [checks.path(f"scenes[{i}]", scene, error=ConfigError) for i, scene in enumerate(scenes)]
     if not paths:
         raise ConfigError("scenes is empty; name at least one scene file.")
@@ -232,17 +233,17 @@ class Run:
             return await self._baked(path)
 
     async def _baked(self, path: Path) -> SceneReport:
-        report, target = self._unmade(path), self._target(path)
+        report, target = self._unmade(path), self.target(path)
         try:
-            made_of, before = await self._state(path)
-            stage = before.get("stage")
-            if stage == "baked" and (target / "bundle.json").is_file():
+            made_of, stage = await self.state(path)
+            if stage == "baked":
                 await asyncio.to_thread(shutil.rmtree, self._draft(path), ignore_errors=True)  # of a killed run
+                before = read_record(self._record(path))
                 counts = {key: before[key] for key in _COUNTS if isinstance(before.get(key), int)}
                 return replace(report, outcome="kept", **counts)
             if is_remote(self.config.llm):
                 draft = self._draft(path)
-                if stage != "inferred" or not (draft / "bundle.json").is_file():
+                if stage != "inferred":
                     report = await self._drafted(path, made_of, await self._inferred(path, self.config.llm))
                 made = await self.pool.run(make_sounds, str(draft), str(target), self.for_workers, self._written(path))
             else:
@@ -264,17 +265,16 @@ class Run:
 
         Raises: as `load_scene` and `infer_corrected`.
         """
-        made_of, before = await self._state(path)
-        made_at = {"baked": self._target(path), "inferred": self._draft(path)}.get(before.get("stage", ""))
-        if made_at is not None and (made_at / "bundle.json").is_file():
+        made_of, stage = await self.state(path)
+        if stage:
             return True
         found = await self._inferred(path, backend)
         if is_whole():
             await self._drafted(path, made_of, found)
         return is_whole()
 
-    async def _state(self, path: Path) -> tuple[dict[str, str], Record]:
-        """Return the digests of a scene's inputs, and the record of its last bake; empty if the inputs have changed.
+    async def state(self, path: Path) -> tuple[dict[str, str], str]:
+        """Return the digests of a scene's inputs, and how far they are baked: "baked", "inferred" (a draft), or "".
 
         Raises: ConfigError: the bundle of its name is that of another scene file, which an earlier run has baked.
         """
@@ -283,11 +283,13 @@ class Run:
         other = Path(os.path.normpath(self.folder / place)) if isinstance(place, str) else path
         if path.is_file() and other.is_file() and not path.samefile(other):
             raise ConfigError(
-                f"{self._target(path)} is the bundle of {other}. Bake both scenes in one run, which gives them "
+                f"{self.target(path)} is the bundle of {other}. Bake both scenes in one run, which gives them "
                 "different names, or choose another folder."
             )
         made_of = {"scene": await asyncio.to_thread(scene_digest, path, self.options), "settings": self.settings}
-        return made_of, before if made_of.items() <= before.items() else {}
+        stage = str(before["stage"]) if made_of.items() <= before.items() else ""
+        made_at = {"baked": self.target(path), "inferred": self._draft(path)}.get(stage)
+        return made_of, stage if made_at is not None and (made_at / "bundle.json").is_file() else ""
 
     def _note(self, path: Path, made_of: Mapping[str, str], **facts: str | int) -> None:
         """Write the record of a scene. Raises: ConfigError: it cannot be written."""
@@ -306,7 +308,7 @@ class Run:
         scene = await asyncio.to_thread(load_scene, path, **self.options)
         read_s, begun = time.perf_counter() - begun, time.perf_counter()
         seen = await self._captured(path, scene) if self.pictures else scene
-        overrides = read_overrides(self._target(path))
+        overrides = read_overrides(self.target(path))
         found = await infer_corrected(
             seen, backend, self.config, overrides, user_prompt=self.user_prompt, limit=self.limit
         )
@@ -339,9 +341,10 @@ class Run:
         return self._work("all" if self.config.share_scenes else self.names[path], ".pictures")
 
     def _unmade(self, path: Path) -> SceneReport:
-        return SceneReport(str(path), str(self._target(path)), "failed")
+        return SceneReport(str(path), str(self.target(path)), "failed")
 
-    def _target(self, path: Path) -> Path:
+    def target(self, path: Path) -> Path:
+        """Return the folder of a scene's bundle."""
         return self.folder / f"{self.names[path]}.bundle"
 
     def _record(self, path: Path) -> Path:
@@ -374,7 +377,7 @@ def _names(paths: list[Path]) -> dict[Path, str]:
     """
     twice = [path for path, n in Counter(paths).items() if n > 1]
     if twice:
-        raise ConfigError(f"scenes has {str(twice[0])!r} twice; give each scene once.")
+        raise ConfigError(f"scenes has {quoted(twice[0])} twice; give each scene once.")
     alike = Counter(file_stem(scene_stem(path)).casefold() for path in paths)
     return {
         path: stem if alike[(stem := file_stem(scene_stem(path))).casefold()] == 1 else f"{stem}-{_digest(path)}"

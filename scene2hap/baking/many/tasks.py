@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.corrections import bundle_with_locked, overrides_of_scene, readable_bundle
+from scene2hap.baking.corrections import bundle_before, overrides_of_scene, readable_bundle
 from scene2hap.baking.many.record import WORK, bundle_digest
 from scene2hap.baking.scene import bake, bake_inferred
 from scene2hap.baking.sound import N_THREADS
@@ -64,7 +64,7 @@ def bake_scene(
             config,
             user_prompt=user_prompt,
             overrides=overrides,
-            earlier=bundle_with_locked(Path(target), overrides),
+            earlier=bundle_before(Path(target), overrides),
             on_report=accounts.append,
         )
         _save(bundle, Path(target), digest)
@@ -88,7 +88,7 @@ def make_sounds(n_threads: int, draft: str, target: str, config: BakeConfig, dig
             inferred.objects,
             overrides,
             config,
-            earlier=bundle_with_locked(Path(target), overrides),
+            earlier=bundle_before(Path(target), overrides),
         )
         bundle = asyncio.run(baking)
         _save(bundle, Path(target), digest)

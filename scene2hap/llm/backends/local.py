@@ -77,8 +77,11 @@ class LocalBackend:
             raise ConfigError(f"dialect is {dialect!r}; it must be 'openai' or 'ollama'.")
         if detail not in ("auto", "low", "high"):
             raise ConfigError(f"detail is {detail!r}; it must be 'auto', 'low' or 'high'.")
-        for name, value in (("num_ctx", num_ctx), ("max_tokens", max_tokens)):
-            checks.number(name, value, "tokens", at_least=1, error=ConfigError)
+        num_ctx, max_tokens = (
+            checks.whole(name, value, "tokens", at_least=1, at_most=2**31, error=ConfigError)
+            for name, value in (("num_ctx", num_ctx), ("max_tokens", max_tokens))
+        )
+        seed = checks.seed(seed, error=ConfigError)
         if top_p is not None:
             checks.number("top_p", top_p, "-", above=0.0, at_most=1.0, error=ConfigError)
         taken = sorted(_OURS & set(extra or ()))

@@ -74,7 +74,9 @@ class OpenAIBackend:
         if detail not in ("low", "high"):
             raise ConfigError(f"detail is {detail!r}; it must be 'low' or 'high'.")
         if max_tokens is not None:
-            checks.number("max_tokens", max_tokens, "tokens", at_least=1, error=ConfigError)
+            max_tokens = checks.whole("max_tokens", max_tokens, "tokens", at_least=1, at_most=2**31, error=ConfigError)
+        if seed is not None:
+            seed = checks.seed(seed, error=ConfigError)
         if top_p is not None:
             checks.number("top_p", top_p, "-", above=0.0, at_most=1.0, error=ConfigError)
         if service_tier not in (None, "auto", "default", "flex", "priority"):

@@ -1,7 +1,8 @@
 """Count the questions of an inference and estimate its cost, without a model.
 
 The chain runs with a stand-in for the model that counts requests. The lexicon estimates from the authored names which
-objects may vibrate, and the number of materials. No picture is rendered. Cached answers are counted as if not cached.
+objects may vibrate, and the number of materials. No picture is rendered, so that a question with pictures counts even
+if a cache has its answer.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ from scene2hap.llm.chain.inference import infer_scene
 from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.protocol import COMPONENTS, Component, LLMReply, LLMRequest
+from scene2hap.llm.request_key import request_key
+from scene2hap.llm.wrappers.cache import CacheBackend
 from scene2hap.llm.wrappers.prices import Given, Price, PriceList, price_list
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -32,6 +35,9 @@ _ANSWER_TOKENS: Mapping[Component, int] = {
 }
 """Assumed: lengths of good answers. Reasoning models write several times as much."""
 
+Asked = dict[str, LLMReply]
+"""Questions that a dry run has counted, by `request_key`, with the answers that it assumed."""
+
 _PICTURE_PX = 512
 """Default size of pictures in `scene.capture`."""
 
@@ -40,13 +46,15 @@ _PICTURE_PX = 512
 class DryRun:
     """The questions that a run would send.
 
-    calls : number by component; images : pictures sent; text_tokens, image_tokens, answer_tokens : estimates, None if
-    unknown for the model; cost_usd : at the prices of `price_date`, None if any part of it is unknown.
+    calls : number by component; kept : number of further questions that a cache answers; images : pictures sent;
+    text_tokens, image_tokens, answer_tokens : estimates, None if unknown for the model; cost_usd : at the prices of
+    `price_date`, None if any part of it is unknown.
     report : the chain's report, with the calls that it would skip.
     """
 
     model: str
     calls: Mapping[Component, int]
+    kept: int
     images: int
     text_tokens: int
     image_tokens: int | None
@@ -55,6 +63,11 @@ class DryRun:
     price_date: str
     report: InferenceReport
 
+    @property
+    def n_calls(self) -> int:
+        """The number of questions to be sent."""
+        return sum(self.calls.values())
+
     def rows(self) -> list[tuple[str, str]]:
         """Return the figures as (label, value) for display. An unknown figure reads "unknown"."""
         known = "unknown" if self.image_tokens is None else f"{self.image_tokens:,}"
@@ -62,7 +75,8 @@ class DryRun:
         return [
             ("model", self.model),
             *((f"calls of {component.replace('_', ' ')}", str(self.calls[component])) for component in COMPONENTS),
-            ("calls in all", str(sum(self.calls.values()))),
+            ("calls in all", str(self.n_calls)),
+            ("answers in the cache", str(self.kept)),
             ("objects that share an analysis", str(self.report.skipped["copies"])),
             ("pictures", str(self.images)),
             ("tokens of text, about", f"{self.text_tokens:,}"),
@@ -87,14 +101,17 @@ async def dry_run(
     detail: str = "low",
     prices: Mapping[str, Price | Given] | None = None,
     service_tier: str = "",
+    cache: CacheBackend | None = None,
+    asked: Asked | None = None,
 ) -> DryRun:
     """Count the questions that `infer_scene` would send to `model` for a scene, and estimate their cost.
 
     `size_px` is the edge of each picture, `detail` its level of detail. `prices` override the dated list.
-    `service_tier` is the billed tier, "" for the standard one.
+    `service_tier` is the billed tier, "" for the standard one. `cache` has earlier answers, and `asked` the questions
+    that were counted before, to which those of this scene are added; with a cache they are asked once.
     Raises: ConfigError.
     """
-    counter = _Counter()
+    counter = _Counter(cache, {} if asked is None else asked)
     inference = await infer_scene(scene, counter, user_prompt=user_prompt, config=config)
     known_prices = price_list(prices)
     per_image = image_tokens(model, size_px, detail)
@@ -106,6 +123,7 @@ async def dry_run(
     return DryRun(
         model,
         counter.calls,
+        counter.kept,
         counter.images,
         counter.text_tokens,
         seen,
@@ -140,12 +158,24 @@ class _Counter:
     objects share a material.
     """
 
+    cache: CacheBackend | None
+    asked: Asked
     calls: Counter[Component] = field(default_factory=Counter)
+    kept: int = 0
     images: int = 0
     text_tokens: int = 0
     answer_tokens: int = 0
 
     async def complete(self, request: LLMRequest) -> LLMReply:
+        if self.cache is None or request.images:
+            return await self._counted(request)
+        key = request_key(request)
+        known = self.cache.stored(request) or self.asked.get(key)
+        self.kept += known is not None
+        self.asked[key] = known or await self._counted(request)
+        return self.asked[key]
+
+    async def _counted(self, request: LLMRequest) -> LLMReply:
         self.calls[request.component] += 1
         self.images += len(request.images)
         self.text_tokens += _text_tokens(request)

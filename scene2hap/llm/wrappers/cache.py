@@ -87,6 +87,11 @@ class CacheBackend(Wrapper):
             async with self._lock(key):
                 return self._load(path, key) or await self._ask(request)
 
+    def stored(self, request: LLMRequest) -> LLMReply | None:
+        """Return the stored answer, None if there is none."""
+        key = _key(request, self.identity)
+        return self._load(self._path(key), key)
+
     def report(self) -> dict[str, int]:
         """Return counts: calls, hits, stored answers, invalid answers (not stored), unusable files."""
         return {

@@ -6,6 +6,7 @@ from collections import OrderedDict
 from pathlib import Path
 from threading import Lock
 
+from scene2hap.common.printable import quoted
 from scene2hap.common.text_files import read_small, write_whole
 from scene2hap.errors import ConfigError, unwritable
 from scene2hap.scene.capture.png import PNG_END
@@ -74,7 +75,7 @@ class FolderCache:
             path.parent.mkdir(parents=True, exist_ok=True)
             write_whole(path, png)
         except OSError as cause:
-            raise ConfigError(unwritable(f"cache_dir {str(self._folder)!r}", cause, "Name another.")) from cause
+            raise ConfigError(unwritable(f"cache_dir {quoted(self._folder)}", cause, "Name another.")) from cause
 
     def _path(self, key: str) -> Path:
         return self._folder / key[:2] / f"{key}.png"

@@ -22,6 +22,7 @@ import numpy as np
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
 from scene2hap.common.json_texts import parse_json
+from scene2hap.common.printable import quoted
 from scene2hap.common.text_files import read_small, read_small_text
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene.arguments import given_scene
@@ -96,7 +97,7 @@ class GivenPictures:
         root = checks.path("folder", folder, error=SceneError)
         found = cls({})
         for number, row in enumerate(_rows(root / INDEX)):
-            place = f"picture {number} of {str(root / INDEX)!r}"
+            place = f"picture {number} of {quoted(root / INDEX)}"
             if not isinstance(row, dict) or not isinstance(row.get("file"), str):
                 raise SceneFormatError(
                     f"{place} is {checks.represented(row)}; it must be an object with object, kind, view and file."
@@ -233,18 +234,18 @@ def _label(shot: Shot) -> str:
 
 def _place(shot: Shot, file: bytes | Path) -> str:
     """Describe a picture for a message, with its file if it has one."""
-    return f"{_label(shot)} in {str(file)!r}" if isinstance(file, Path) else _label(shot)
+    return f"{_label(shot)} in {quoted(file)}" if isinstance(file, Path) else _label(shot)
 
 
 def _rows(index: Path) -> list[Any]:
     try:
         rows = parse_json(read_small_text(index))
     except OSError as cause:
-        raise SceneError(f"{str(index)!r} cannot be read: {cause.strerror}. Give the folder that holds it.") from cause
+        raise SceneError(f"{quoted(index)} cannot be read: {cause.strerror}. Give the folder that holds it.") from cause
     except (ValueError, RecursionError) as cause:
-        raise SceneFormatError(f"{str(index)!r} is no JSON that can be read: {reason_of(cause)}.") from cause
+        raise SceneFormatError(f"{quoted(index)} is no JSON that can be read: {reason_of(cause)}.") from cause
     if not isinstance(rows, list):
-        raise SceneFormatError(f"{str(index)!r} holds {checks.described(rows)}; it must be a list of pictures.")
+        raise SceneFormatError(f"{quoted(index)} holds {checks.described(rows)}; it must be a list of pictures.")
     return rows
 
 
@@ -254,7 +255,7 @@ def _content(file: bytes | Path, name: str) -> bytes:
     try:
         return read_small(file, MAX_BYTES)
     except (OSError, ValueError) as cause:
-        raise SceneError(f"{name} cannot be read from {str(file)!r}: {reason_of(cause)}.") from cause
+        raise SceneError(f"{name} cannot be read from {quoted(file)}: {reason_of(cause)}.") from cause
 
 
 def _as_shown(file: bytes, name: str) -> bytes:

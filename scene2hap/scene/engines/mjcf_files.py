@@ -15,6 +15,7 @@ from math import prod
 from pathlib import Path
 from typing import NamedTuple
 
+from scene2hap.common.printable import quoted
 from scene2hap.common.text_files import is_there
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
@@ -65,7 +66,7 @@ def check_files(path: Path, assets_root: Path) -> None:
     root = assets_root.resolve()
     path = path.resolve()
     if not path.is_relative_to(root):
-        raise SceneError(f"{str(path)!r} lies outside assets_root {str(root)!r}; give a folder that holds the scene.")
+        raise SceneError(f"{quoted(path)} lies outside assets_root {quoted(root)}; give a folder that holds the scene.")
     _Model(path, root).check()
 
 
@@ -276,7 +277,7 @@ def _png_cells(path: Path) -> int:
         with path.open("rb") as file:
             start = file.read(24)
     except OSError as cause:
-        raise SceneError(f"{str(path)!r} cannot be read: {reason_of(cause)}.") from cause
+        raise SceneError(f"{quoted(path)} cannot be read: {reason_of(cause)}.") from cause
     if not start.startswith(b"\x89PNG\r\n\x1a\n"):
         return 0
     return int.from_bytes(start[16:20], "big") * int.from_bytes(start[20:24], "big")

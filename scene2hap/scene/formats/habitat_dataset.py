@@ -34,7 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common import checks
-from scene2hap.common.printable import writable
+from scene2hap.common.printable import quoted, writable
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
@@ -134,7 +134,7 @@ class Dataset:
             known = [*index.names(), *map(_plain, self._all_below().names())]
             hint = checks.did_you_mean(_plain(name).rpartition("/")[2], known)
             raise SceneError(
-                f"{place} names the template {name!r}, which the dataset in {str(self.folder.path)!r} does not have. "
+                f"{place} names the template {name!r}, which the dataset in {quoted(self.folder.path)} does not have. "
                 f"{hint or self._advice(kind)}"
             )
         attributes, folder, written_in = self._attributes(kind, source)
@@ -144,7 +144,7 @@ class Dataset:
     def _advice(self, kind: Kind) -> str:
         if self.folder.outside:
             return (
-                f"{self.folder.outside[0]!r} of {self._file} lies outside {str(self.folder.root)!r}; give "
+                f"{self.folder.outside[0]!r} of {self._file} lies outside {quoted(self.folder.root)}; give "
                 "assets_root=<the folder that holds both>."
             )
         return (
@@ -261,7 +261,7 @@ class Dataset:
             raise SceneFormatError(f"{place} is {name!r}; models of these kinds are read: {kinds}.")
         if not is_file(file):
             near = checks.near_files(file) or "Download the dataset with its models."
-            raise SceneError(f"{place} is {name!r}, but there is no file {str(file)!r}. {near}")
+            raise SceneError(f"{place} is {name!r}, but there is no file {quoted(file)}. {near}")
         return file
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.common.json_texts import read_json
-from scene2hap.common.printable import writable
+from scene2hap.common.printable import quoted, writable
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 from scene2hap.scene.files import outside, read_bytes
@@ -168,7 +168,7 @@ def resolved(path: Path) -> Path:
     try:
         return path.resolve()
     except (OSError, ValueError, RuntimeError) as cause:  # a zero byte, a cycle of links
-        raise SceneError(f"{str(path)!r} is no usable file name: {reason_of(cause)}.") from cause
+        raise SceneError(f"{quoted(path)} is no usable file name: {reason_of(cause)}.") from cause
 
 
 def is_file(path: Path) -> bool:

@@ -9,6 +9,7 @@ from urllib.parse import unquote
 from urllib.request import url2pathname
 from xml.etree.ElementTree import Element
 
+from scene2hap.common.printable import quoted
 from scene2hap.common.text_files import is_there
 from scene2hap.errors import SceneError
 from scene2hap.scene.files import address, outside, usable_name
@@ -39,8 +40,8 @@ class UrdfFiles:
                     return path
         if beyond is None:
             raise SceneError(
-                f"{place} wants {name!r}; there is no such file. Copy it beside the scene, or give the folder that "
-                "holds the package as assets_root."
+                f"{place} wants {quoted(name)}; there is no such file. Copy it beside the scene, or give the folder "
+                "that holds the package as assets_root."
             )
         raise outside(place, name, root, beyond)
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.printable import quoted
 from scene2hap.common.warning import warn_of
 from scene2hap.devices import SINKS
 from scene2hap.devices.exclusive_use import claim_sink, give_back_sink
@@ -41,7 +42,7 @@ class Output:
             raise ConfigError(f"sink is {checks.described(sink)}; several at once are one TeeSink([...]).")
         if isinstance(sink, os.PathLike) or (isinstance(sink, str) and Path(sink).suffix):
             raise ConfigError(
-                f"sink is {str(sink)!r}, a path; give sink=WavSink({str(sink)!r}), and pull from it to write the file."
+                f"sink is {quoted(sink)}, a path; give sink=WavSink({str(sink)!r}), and pull from it to write the file."
             )
         built = cast("ActuatorSink", SINKS.build(sink)) if sink is not None else None
         self._pid = os.getpid()

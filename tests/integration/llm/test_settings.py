@@ -20,6 +20,10 @@ from scene2hap.errors import ConfigError
         (lambda: OpenAIBackend(api_key=b"secret"), "an API key or token is a bytes"),
         (lambda: OpenAIBackend(top_p=0), "top_p is 0"),
         (lambda: OpenAIBackend(max_tokens=0), "max_tokens is 0 tokens"),
+        (lambda: OpenAIBackend(max_tokens=9.5), "max_tokens is 9.5; it must be a whole number"),
+        (lambda: OpenAIBackend(seed=True), "seed is True; it must be a number"),
+        (lambda: LocalBackend("m", base_url="http://a", seed=True), "seed is True; it must be a number"),
+        (lambda: LocalBackend("m", base_url="http://a", seed=0.5), "seed is 0.5; it must be a whole number"),
         (lambda: LocalBackend("m", base_url="http://a", top_p=1.5), "top_p is 1.5"),
         (lambda: LocalBackend("m", base_url="http://a", extra={"messages": []}), "extra sets messages"),
         (

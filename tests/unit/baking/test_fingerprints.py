@@ -171,11 +171,74 @@ def test_an_edit_of_a_loop_by_hand_is_kept_by_a_lock_and_else_lost_with_a_warnin
         assert edited.loops["desk_fan"]["on"].tactile.samples == pytest.approx(samples / 2, abs=2**-23)
         locked = rebake(edited.override("desk_fan", locked=True), {"seed": 7})
         assert locked.loops["desk_fan"] is edited.loops["desk_fan"]
-    with pytest.warns(BundleWarning, match="edited by hand are made again, and the edits are lost: desk_fan"):
+    with pytest.warns(
+        BundleWarning, match="edited by hand are made again or removed, and the edits are lost: desk_fan"
+    ):
         again = rebake(edited.override("desk_fan", intensity=0.123))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         rebake(again.override("desk_fan", intensity=0.2))
+
+
+@pytest.mark.parametrize("kind", ["tactile", "audible"])
+def test_a_new_bake_keeps_loops_that_were_edited_by_hand_or_warns(tmp_path: Path, kind: str) -> None:
+    edited = bundle_with_halved_fan(tmp_path / "b", kind)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", BundleWarning)
+        again = bake(ROOM, earlier=edited)
+    assert getattr(again.loops["desk_fan"]["on"], kind) == getattr(edited.loops["desk_fan"]["on"], kind)
+    assert_same_loops(
+        replace(again, loops={**again.loops, "desk_fan": {}}), replace(edited, loops={**edited.loops, "desk_fan": {}})
+    )
+    lost = "edited by hand are made again or removed, and the edits are lost: desk_fan"
+    with pytest.warns(BundleWarning, match=lost):
+        bake(ROOM, HUMS, earlier=edited)
+    without = replace(ROOM, objects=tuple(item for item in ROOM.objects if item.id != "desk_fan"))
+    with pytest.warns(BundleWarning, match=lost):
+        bake(without, earlier=edited)
+
+
+def test_an_edit_of_a_loop_by_hand_outlives_changes_of_other_sources(tmp_path: Path) -> None:
+    edited = bundle_with_halved_fan(tmp_path / "b", "tactile")
+    others = edited.override("microwave_oven", pitch_hz=felt(edited)["desk_fan"])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", BundleWarning)
+        again, told = remade(others)
+    assert "desk_fan" not in told
+    assert again.loops["desk_fan"]["on"].tactile == edited.loops["desk_fan"]["on"].tactile
+    assert again.loops["desk_fan"]["on"].fingerprint["plan"] != edited.loops["desk_fan"]["on"].fingerprint["plan"]
+    with pytest.warns(BundleWarning, match="edits are lost: desk_fan"):
+        rebake(edited.override("desk_fan", pitch_hz=130.0))
+
+
+def test_a_reset_takes_back_an_edit_of_a_loop_by_hand(tmp_path: Path) -> None:
+    made = bake(ROOM)
+    reset = bundle_with_halved_fan(tmp_path / "b", "tactile").reset("desk_fan")
+    loaded = HapticBundle.load(reset.save(tmp_path / "c"))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", BundleWarning)
+        again, told = remade(loaded)
+    assert told == {"desk_fan": {"on": ("sound",)}}
+    assert_same_loops(again, made)
+    assert made.reset("desk_fan") == made
+
+
+def test_an_edit_of_a_loop_by_hand_outlives_a_row_that_is_removed(tmp_path: Path) -> None:
+    edited = bundle_with_halved_fan(tmp_path / "b", "tactile").override("desk_fan", gain_db=-3.0, mass_kg=2.0)
+    folder = edited.save(tmp_path / "c")
+    (folder / "overrides.json").write_text("{}")
+    again, told = remade(HapticBundle.load(folder))
+    assert told == {}
+    assert again.objects["desk_fan"].mass_kg != 2.0
+    assert again.loops["desk_fan"]["on"].tactile == edited.loops["desk_fan"]["on"].tactile
+
+
+def bundle_with_halved_fan(folder: Path, kind: str) -> HapticBundle:
+    """Bake the room, and halve the amplitude of a loop of the fan by hand."""
+    file = bake(ROOM).save(folder) / "sounds" / f"desk_fan.on.{kind}.wav"
+    samples, rate = soundfile.read(file)
+    soundfile.write(file, samples / 2, rate, subtype="PCM_24")
+    return HapticBundle.load(folder)
 
 
 def asked_db(bundle: HapticBundle, object_id: str) -> float:
@@ -218,7 +281,7 @@ def test_sound_sources_are_queried_only_when_given(bundle: HapticBundle) -> None
     assert source.n_asked == len(NAMES)
 
 
-def test_a_new_bake_takes_only_locked_loops_from_the_bundle_before(bundle: HapticBundle) -> None:
+def test_a_new_bake_takes_locked_loops_from_the_bundle_before(bundle: HapticBundle) -> None:
     locked = bundle.override("desk_fan", locked=True).overrides
     again = bake(ROOM, {"audio": Recordings(own_tone(90.0))}, overrides=locked, earlier=bundle)
     assert again.loops["desk_fan"] == bundle.loops["desk_fan"]
@@ -388,3 +451,22 @@ def test_copies_are_synthesized_once(monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(asked) == 1
     loops = [loop for states in baked.loops.values() for loop in states.values()]
     assert len({id(loop.tactile) for loop in loops}) == 1
+
+
+def test_a_marked_loop_is_the_loop_and_stays_it_in_the_bundle(tmp_path: Path) -> None:
+    x = own_tone().samples
+    marked = AudioClip(x, RATE, Credit("mine", "me", "CC0"), loop=(4100, 12_000))
+    sounds = {"audio": Recordings(marked)}
+    for bundle in (bake(ROOM, sounds), rebake(bake(ROOM).override("desk_fan", clip=marked))):
+        loaded = HapticBundle.load(bundle.save(tmp_path / "b"))
+        audible = loaded.loops["desk_fan"]["on"].audible.samples
+        assert audible == pytest.approx(x[4100:12_000] * audible.max() / x.max(), abs=1e-5)
+        assert remade(loaded)[1] == {}
+        assert {key: dict(states) for key, states in loaded.loops.items()} == {
+            k: dict(s) for k, s in bundle.loops.items()
+        }
+        assert loaded.overrides == bundle.overrides
+    again = rebake(HapticBundle.load(bake(ROOM, sounds).save(tmp_path / "c")), {"actuator": "lra"})
+    assert_same_loops(again, bake(ROOM, sounds | {"actuator": "lra"}))
+    other = replace(marked, loop=(4000, 12_000))
+    assert set(remade(loaded.override("desk_fan", clip=other))[1]["desk_fan"]) == {"on"}

@@ -11,7 +11,9 @@ import pytest
 import soundfile
 from numpy.typing import NDArray
 
-from scene2hap import HapticBundle
+from scene2hap import ActuatorProfile, HapticBundle
+from scene2hap.audio.spreading import SpreadLimits
+from scene2hap.bundle import MadeWith
 from scene2hap.bundle.checking import BundleWarning
 from scene2hap.errors import BundleError
 from scenes import table_with_two_phones
@@ -41,6 +43,30 @@ def test_file_that_an_editor_saved_in_a_code_page_is_refused(folder: Path) -> No
     (folder / "overrides.json").write_bytes('{"Küche": {}}'.encode("cp1252"))
     with pytest.raises(BundleError, match=r"overrides\.json cannot be read: .* not UTF-8; save the text as UTF-8"):
         HapticBundle.load(folder)
+
+
+@pytest.mark.parametrize("value", [True, "1", [1]])
+@pytest.mark.parametrize("name", ["mass_kg", "confidence", "material", "states"])
+def test_true_or_a_text_in_place_of_a_number_is_refused(folder: Path, name: str, value: object) -> None:
+    row = json.loads((folder / "objects.json").read_text())["phone"]
+    within = {
+        "material": {**row["material"], "loss_factor": value},
+        "states": [{**row["states"][0], "intensity": value}],
+    }
+    edit(folder, "phone", **{name: within.get(name, value)})
+    with pytest.raises(BundleError, match=r"objects\.json: phone\..* is .*: Input should be a valid number"):
+        HapticBundle.load(folder)
+
+
+def test_true_is_no_seed(folder: Path) -> None:
+    path = table_with_two_phones()[1].save(folder.parent / "made") / "bundle.json"
+    manifest = json.loads(path.read_text())
+    manifest["made_with"] = MadeWith(ActuatorProfile(), {"kind": "auto"}, SpreadLimits(), 3).to_document() | {
+        "seed": True
+    }
+    path.write_text(json.dumps(manifest))
+    with pytest.raises(BundleError, match="made_with is wrong: seed is True; it must be a number"):
+        HapticBundle.load(path.parent)
 
 
 @pytest.mark.parametrize("text", ['{"phone": {}, "phone": {}}', '{"phone": {"gain_db": -3, "gain_db": -6}}'])

@@ -159,3 +159,22 @@ def test_a_level_like_a_percentage_is_doubted_once(bundle: HapticBundle, recwarn
     loud.override(source, gain_db=-3.0)
     loud.override(source, muted=True)
     assert not list(recwarn)
+
+
+def test_corrections_of_two_people_merge_line_by_line(bundle: HapticBundle, tmp_path: Path) -> None:
+    """As git does it: with the conflict's marks deleted, and a comma after all lines but the last."""
+    anns = bundle.override("phone", intensity={"ringing": 0.2}, gain_db=-3.0).override("table", material="oak")
+    bobs = bundle.override(sorted(bundle.loops.keys() - {"phone"})[0], gain_db=-6.0)
+    folders = [anns.save(tmp_path / "ann"), bobs.save(tmp_path / "bob")]
+    for name in ("overrides.json", "inferred.json"):
+        rows = []
+        for folder in folders:
+            first, *lines, last = (folder / name).read_text(encoding="utf-8").splitlines()
+            assert (first, last) == ("{", "}")
+            rows += [line.rstrip(",") for line in lines]
+        assert len(rows) == 3
+        (tmp_path / "ann" / name).write_text("{\n" + ",\n".join(rows) + "\n}\n", encoding="utf-8")
+    merged = HapticBundle.load(tmp_path / "ann")
+    assert merged.overrides == {**anns.overrides, **bobs.overrides}
+    assert merged.inferred == {**anns.inferred, **bobs.inferred}
+    assert (bundle.save(tmp_path / "none") / "overrides.json").read_text() == "{}\n"

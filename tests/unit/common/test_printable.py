@@ -3,14 +3,15 @@
 import json
 import subprocess
 import sys
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 
 import pytest
 
 from scene2hap import load_scene
 from scene2hap.cli import main
 from scene2hap.common.json_texts import printable_json
-from scene2hap.common.printable import aligned, printable, writable
+from scene2hap.common.printable import aligned, printable, quoted, writable
+from scene2hap.errors import SceneError
 
 TITLE = "\x1b]0;owned\x07\x1b[2J"
 NASTY = {"escape": TITLE, "C1": "\x9b2J", "newline": "a\nscene2hap: error: b", "bidi": "\u202eabc", "return": "a\rb"}
@@ -26,6 +27,15 @@ def test_control_characters_are_escaped() -> None:
     assert printable("Küche 台所 🍳") == "Küche 台所 🍳"
     assert printable("a\tb\nc", lines=True) == "a\tb\nc"
     assert printable("\ud800") == r"\ud800"
+
+
+def test_a_path_is_quoted_as_the_user_wrote_it(tmp_path: Path) -> None:
+    assert quoted(PureWindowsPath(r"C:\Users\Ann\kitchen.glb")) == r"'C:\Users\Ann\kitchen.glb'"
+    assert quoted("Ann's room.glb") == '"Ann\'s room.glb"'
+    assert quoted("a\x1bb") == r"'a\x1bb'"
+    with pytest.raises(SceneError) as refused:
+        load_scene(tmp_path / r"rooms\kitchen.glb")
+    assert r"rooms\kitchen.glb'" in str(refused.value)
 
 
 def test_escaped_json_keeps_its_meaning() -> None:

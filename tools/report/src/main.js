@@ -79,6 +79,7 @@ function start(report) {
     style.width = isPrinting ? `${clientWidth}px` : "";
     style.height = isPrinting ? `${clientHeight}px` : "";
     style.zoom = isPrinting ? Math.min(1, PAPER_PX / clientWidth) : "";
+    if (isPrinting) view?.draw();
   }
 
   function repaint() {

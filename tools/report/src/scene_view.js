@@ -310,6 +310,7 @@ export function makeSceneView({ canvas, layer, report, felt, store, onHover, onF
     focus,
     frameAll,
     showTheme,
+    draw,
     pick: (x, y) => hit(x, y)?.id ?? null,
     /** Middle of an object's box in pixels of the viewport; null for an unknown id. */
     project(id) {

@@ -21,6 +21,7 @@ from typing import Any
 
 from pxr import Sdf, Tf
 
+from scene2hap.common.printable import quoted
 from scene2hap.common.text_files import is_there
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.files import check_file, inside, usable_name
@@ -247,7 +248,7 @@ class Layers:
                 exists = is_there(beside_root)
                 path = beside_root if exists else path
         if not exists:
-            raise SceneError(f"{place} needs the layer {name!r}, and there is no file {str(path)!r}. Copy it there.")
+            raise SceneError(f"{place} needs the layer {name!r}, and there is no file {quoted(path)}. Copy it there.")
         return self._file(path)
 
     def _inside(self, name: str, folder: Path, place: str) -> Path:

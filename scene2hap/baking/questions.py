@@ -1,0 +1,34 @@
+"""The questions that a bake would send to its model, counted in advance."""
+
+from __future__ import annotations
+
+from scene2hap.baking.config import BakeConfig
+from scene2hap.llm.chain.dry_run import Asked, DryRun, dry_run
+from scene2hap.llm.lexicon import LexiconBackend
+from scene2hap.llm.wrappers import CacheBackend, identity, innermost
+from scene2hap.scene.snapshot import SceneSnapshot
+
+
+async def count_questions(
+    scene: SceneSnapshot, config: BakeConfig, *, user_prompt: str = "", asked: Asked | None = None
+) -> DryRun:
+    """Count the questions about a scene, without those that the cache of the settings can answer.
+
+    `asked` has the questions about other scenes of one run, which the cache will have answered; this scene's are added.
+    Raises: ConfigError.
+    """
+    settings, prices = identity(config.llm), config.prices
+    model = str(settings.get("model", "no model behind an address"))
+    if isinstance(innermost(config.llm), LexiconBackend):
+        model, prices = "lexicon", {**(prices or {}), "lexicon": (0.0, 0.0)}
+    return await dry_run(
+        scene,
+        model,
+        user_prompt=user_prompt,
+        config=config,
+        detail=settings.get("detail", "low"),
+        prices=prices,
+        service_tier=getattr(innermost(config.llm), "service_tier", ""),
+        cache=config.llm if isinstance(config.llm, CacheBackend) else None,
+        asked=asked,
+    )
