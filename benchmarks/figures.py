@@ -157,6 +157,7 @@ FIGURES = {
         has_times=True,
         needs="scenes",
     ),
+    "closing-speeds": Figure("impacts", "benchmarks/closing_speeds.py", 1),
     "engine-links": Figure("engines", "benchmarks/engine_links.py", 0.5, has_times=True),
     "bridge": Figure("bridge", "benchmarks/bridge.py", 1.5, has_times=True),
     "mixer": Figure("mixing", "benchmarks/mixer.py", 3, has_times=True),

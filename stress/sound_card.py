@@ -1,12 +1,13 @@
 """Campaigns on a real sound server with a null sink, measured by recordings of its monitor.
 
-python stress/sound_card.py [takes] [low] [latency] [watchdog] [hitches] [unplug] [--takes 10] [--seconds 30]
+python stress/sound_card.py [takes] [low] [latency] [watchdog] [silence] [hitches] [unplug] [--takes 10] [--seconds 30]
     [--cycles 200] [--undisturbed] [--freeze]
 
 takes    : ten times 30 s at the default latency, while another thread updates at 1 kHz and allocates memory.
 low      : a take, and times as below, at "low" latency with blocks of 64, 128 and 256 frames.
 latency  : time from an update to the first frame at the monitor, for several latencies.
 watchdog : the game's thread ends; time until the monitor records exact zeros, against watchdog + fade + latency.
+silence  : `stop`, `pause` and muting while the game goes on; time until the monitor records less than -80 dB.
 hitches  : a game of 30 frames per second with a hitch of 60 ms every tenth frame, 20 s.
 unplug   : the sink is unloaded and loaded again; threads, open files and memory before and after.
 Needs: apt-get install --no-install-recommends pulseaudio pulseaudio-utils libportaudio2 libasound2-plugins
@@ -32,6 +33,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 from process_use import memory_mb, n_files, n_threads, stolen_s
 
+from scene2hap import HapticSession
 from scene2hap.devices.protocol import SinkEvent
 from scene2hap.devices.soundcard import SoundCardSink
 from sound_server import DEVICE, RATE, SoundServer, missing
@@ -133,8 +135,29 @@ def watchdog(arguments: argparse.Namespace) -> None:
         )
 
 
-def time_to_silence_s(server: SoundServer, setting: float | str, watchdog_s: float) -> float:
-    """Time [s] from the last update of a game whose thread ends to the last frame that is not zero."""
+def silence(arguments: argparse.Namespace) -> None:
+    ends: dict[str, Callable[[HapticSession], None]] = {
+        "stop": HapticSession.stop,
+        "pause": HapticSession.pause,
+        "mute": lambda session: session.set_user(mute=True),
+    }
+    for setting in (0.1, "low"):
+        with SoundServer() as server:
+            for name, end in ends.items():
+                times = [time_to_silence_s(server, setting, 0.1, end) for _ in range(10)]
+                print(
+                    f"latency {setting}, {name}: silent after {1e3 * min(times):.0f} to {1e3 * max(times):.0f} ms",
+                    flush=True,
+                )
+
+
+def time_to_silence_s(
+    server: SoundServer, setting: float | str, watchdog_s: float, end: Callable[[HapticSession], None] | None = None
+) -> float:
+    """Time [s] from the last update of a game whose thread ends to the last frame that is not zero.
+
+    With `end`, from its call to the last frame above -80 dB re full scale: a pause leaves the tail of the DC block.
+    """
     sink = SoundCardSink(DEVICE, latency=setting)
     recorder = server.record(is_timed=True)
     with session_on(sink, watchdog_s=watchdog_s) as session:
@@ -142,14 +165,19 @@ def time_to_silence_s(server: SoundServer, setting: float | str, watchdog_s: flo
         game = Game(session, lambda _: 0.005)
         game.start()
         time.sleep(0.7 + 0.02 * np.random.default_rng().random())
-        ended = game.kill()
+        if end is None:
+            ended = game.kill()
+        else:
+            ended = time.monotonic()
+            end(session)
         last, begin = -1, time.monotonic()
         while last < 0 or recorder.n_heard - last < RATE // 4:
             assert time.monotonic() < begin + 5.0, "the sink still plays after 5 s"
             time.sleep(0.1)
-            sounding = np.flatnonzero(np.abs(recorder.samples).max(axis=1))
+            sounding = np.flatnonzero(np.abs(recorder.samples).max(axis=1) > (0.0 if end is None else 1e-4))
             last = int(sounding[-1]) if len(sounding) else -1
         found = (last + 1 - recorder.frame_at(ended)) / RATE
+        game.kill()
     recorder.stop()
     return found
 
@@ -201,7 +229,15 @@ def wait_for(is_so: Callable[[], object], timeout_s: float = 20.0) -> None:
         time.sleep(0.005)
 
 
-CAMPAIGNS = {"takes": takes, "low": low, "latency": latency, "watchdog": watchdog, "hitches": hitches, "unplug": unplug}
+CAMPAIGNS = {
+    "takes": takes,
+    "low": low,
+    "latency": latency,
+    "watchdog": watchdog,
+    "silence": silence,
+    "hitches": hitches,
+    "unplug": unplug,
+}
 
 if __name__ == "__main__":
     main()

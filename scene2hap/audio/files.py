@@ -54,6 +54,10 @@ MAX_CHANNELS = 64
 CANCELLED = 0.1
 """Share of the power of unrelated channels' mean below which channels cancel each other (-10 dB; assumed)."""
 
+LARGEST_WAV_BYTES = 0xFFFF_0000
+"""Most bytes of samples in a WAV file, whose lengths have 32 bits. RF64 (EBU Tech 3306) holds more, and most programs
+read it."""
+
 _BLOCK_FRAMES = 1 << 18
 
 _BITS: dict[str, int] = {"PCM_16": 16, "PCM_24": 24, "PCM_32": 32}

@@ -20,7 +20,8 @@ from rich.table import Table
 from rich.text import Text
 
 from scene2hap.cli import streams
-from scene2hap.common.printable import aligned, printable, printable_json
+from scene2hap.common.json_texts import printable_json
+from scene2hap.common.printable import aligned, printable
 
 Tell = Callable[[str, str, int, int], None]
 """Called with (stage, item, number done, total number)."""

@@ -6,7 +6,7 @@ import argparse
 from typing import Any
 
 from scene2hap.bundle import HapticBundle
-from scene2hap.common.printable import parse_json
+from scene2hap.common.json_texts import parse_json
 from scene2hap.common.settings import read_settings
 from scene2hap.errors import ConfigError
 from scene2hap.session import SessionConfig

@@ -9,7 +9,7 @@ from typing import Any
 
 from scene2hap.clips.haptic_clip import MAX_CLIP_S, MAX_POINTS
 from scene2hap.common import checks
-from scene2hap.common.printable import parse_json
+from scene2hap.common.json_texts import parse_json
 from scene2hap.common.text_files import read_small
 from scene2hap.errors import ClipError
 

@@ -14,10 +14,11 @@ import math
 
 import numpy as np
 
+from scene2hap.common.arrays import Bools, Indices
 from scene2hap.contact.body import Body, box_in_frame
 from scene2hap.contact.geometry.planes import Plane, floor_at, roof_at, wall_at
 from scene2hap.contact.geometry.triangle_tree import ALL, meeting
-from scene2hap.contact.geometry.vectors import AABB, Indices, Marks
+from scene2hap.contact.geometry.vectors import AABB
 from scene2hap.contact.lazy import lazy
 from scene2hap.contact.ledge import Flat, FreeRegion, VerticalAxis
 from scene2hap.contact.mesh_distance import INSET, INSET_M
@@ -209,7 +210,7 @@ class _Surroundings:
         if own.sign < 0:
             self.low[2], self.high[2] = -self.high[2], -self.low[2]
 
-    def cut(self, taken: AABB, others: Marks | slice = slice(None)) -> AABB:
+    def cut(self, taken: AABB, others: Bools | slice = slice(None)) -> AABB:
         """Return the box `taken`, enlarged within the surroundings until it meets one of the `others`.
 
         All of the others must be outside of `taken`.

@@ -73,7 +73,7 @@ class Line(Protocol):
 
     @property
     def underruns(self) -> int:
-        """Number of times that the device ran out of samples."""
+        """Number of times that the device ran out of samples, since the line was made."""
         ...
 
     @property
@@ -123,7 +123,7 @@ class LiveSink:
         self._thread: threading.Thread | None = None
         self._stopping = threading.Event()
         self._playing = threading.Event()
-        self._frames = self._dropped = self._faults = self._connects = 0
+        self._frames = self._dropped = self._faults = self._connects = self._earlier_underruns = 0
         self._last_event: tuple[str, str] | None = None
         self._filter_s = 0.0
         self._idle = FrameClock(1)
@@ -145,6 +145,7 @@ class LiveSink:
             claim(self._key, self, refusal)
         self._format = format
         self._frames = self._dropped = self._faults = self._connects = 0
+        self._earlier_underruns = self._line.underruns
 
     def start(self, fill: Fill) -> None:
         """Request blocks from `fill`, on the sink's own thread. Raises: DeviceError: not open."""
@@ -187,7 +188,7 @@ class LiveSink:
         latency_s = self._line.latency_s
         return SinkStats(
             frames=self._frames,
-            underruns=self._line.underruns,
+            underruns=self._line.underruns - self._earlier_underruns,
             connected=self._playing.is_set(),
             reconnects=max(0, self._connects - 1),
             dropped_frames=self._dropped,
@@ -324,7 +325,7 @@ class LiveSink:
         if callback is None:
             return
         try:
-            callback(SinkEvent(kind, message, time.monotonic()))
+            callback(SinkEvent(kind, message, time.monotonic(), self._name))
         except Exception:  # an error in the game's callback must not silence the sink
             self._faults += 1
 

@@ -13,12 +13,16 @@ from scene2hap.errors import DeviceError
 
 @clear_calls
 class MemorySink(PulledSink):
-    """Store the mix in memory, where `samples` has it. It has no clock of its own: `pull` requests the next frames."""
+    """Store the mix in memory, where `samples` has it: 1.9 MB for each second of ten channels at 48 kHz.
+
+    It has no clock of its own: `pull` requests the next frames.
+    """
 
     def __init__(self) -> None:
         self._format: SinkFormat | None = None
         self._fill: Fill | None = None
         self._blocks: list[Block] = []
+        self._frames = 0
 
     def __repr__(self) -> str:
         n_channels = len(self._format.channels) if self._format else 0
@@ -27,7 +31,7 @@ class MemorySink(PulledSink):
     def open(self, format: SinkFormat) -> None:
         """Prepare the sink, and discard stored samples."""
         self._format = format
-        self._blocks = []
+        self._blocks, self._frames = [], 0
         self._whole = WholeFrames(format.sample_rate_hz)
 
     def start(self, fill: Fill) -> None:
@@ -42,6 +46,7 @@ class MemorySink(PulledSink):
             raise DeviceError("MemorySink is not started; start the session that it belongs to first.")
         block = self._fill(n_frames)
         self._blocks.append(block)
+        self._frames += len(block)
         return block
 
     def stop(self) -> None:
@@ -61,4 +66,4 @@ class MemorySink(PulledSink):
     @property
     def stats(self) -> SinkStats:
         """The number of frames stored so far."""
-        return SinkStats(frames=sum(len(block) for block in self._blocks))
+        return SinkStats(frames=self._frames)

@@ -9,7 +9,9 @@ from typing import Literal, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
+from scene2hap.errors import ConfigError
 
 Block = NDArray[np.float32]
 """Samples (n_frames, n_channels) float32 in [-1, 1]."""
@@ -18,12 +20,23 @@ Fill = Callable[[int], Block]
 """Function that returns the next n_frames of the mix."""
 
 
+@clear_construction
 @dataclass(frozen=True)
 class SinkFormat:
-    """Format of an opened sink: its sample rate and the name of each channel, such as ("left", "right")."""
+    """Format of an opened sink: its sample rate and the name of each channel, such as ("left", "right").
+
+    Raises: ConfigError: no rate of at least 1 Hz, or no channel.
+    """
 
     sample_rate_hz: int
     channels: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        rate_hz = checks.whole(
+            "sample_rate_hz", self.sample_rate_hz, "Hz", at_least=1, at_most=1_000_000, error=ConfigError
+        )
+        object.__setattr__(self, "sample_rate_hz", rate_hz)
+        object.__setattr__(self, "channels", checks.names("channels", self.channels))
 
 
 @clear_construction
@@ -57,12 +70,14 @@ class SinkEvent:
     kind : "connected" (first or again), "unavailable" (cannot be reached, tried again later), "stalled" (takes no
         samples), "resumed" (takes them again), "lost" (was connected, is gone) or "fault" (the mix could not be
         rendered, a recording beside the device failed, or the driver does not return).
-    message : a sentence with the next step; at_s : time [s], on the clock of `time.monotonic`.
+    message : a sentence with the next step; at_s : time [s], on the clock of `time.monotonic`; sink : name of the sink,
+        as for one of a TeeSink.
     """
 
     kind: EventKind
     message: str
     at_s: float
+    sink: str = ""
 
 
 EventCallback = Callable[[SinkEvent], None]

@@ -84,6 +84,7 @@ class SerialLine:
         self._buffer_s = checks.number("buffer_s", buffer_s, "s", at_least=0.002, at_most=1.0, error=ConfigError)
         self._block = checks.whole("block_frames", block_frames, "-", at_least=1, at_most=256, error=ConfigError)
         self.underruns: int = 0
+        self._earlier_underruns = 0
         self.latency_s: float | None = None
         self.silent_after_s: float = WATCHDOG_S
         self._port: SerialPort | None = None
@@ -109,6 +110,7 @@ class SerialLine:
         self._parser = FrameParser()
         self._in_flight.clear()
         self._room = 0
+        self._earlier_underruns = self.underruns  # the device counts from HELLO on
         device = self._greet(self._port, len(format.channels), carry_on)
         if device is None:
             return 1
@@ -217,7 +219,7 @@ class SerialLine:
         flying = sum(n_frames for _, n_frames in self._in_flight)
         room = min(credit.free_frames, self._target_frames - credit.queued_frames)
         self._room = room - flying
-        self.underruns = credit.underruns
+        self.underruns = self._earlier_underruns + credit.underruns
         if heard:
             transfer_s = (clock_us(now) - sent_us) % 2**32 / 1e6
             self.latency_s = transfer_s + credit.queued_frames / self._rate_hz

@@ -48,9 +48,9 @@ FADE_S = 0.005
 
 STEREO = 2
 _DROPPING = (
-    "It is a sound server, which says nothing of the card's channels and plays nothing on those that the card lacks. "
-    "If a hand on channel 3 or above feels nothing, choose the card itself, or a profile with more channels: "
-    "`pactl list sinks` shows them."
+    "It is a sound server, which says nothing of the card's channels. Those that the card lacks are silent, or mixed "
+    "into others. If a hand on channel 3 or above feels nothing, or another hand's vibration, choose the card itself, "
+    "or a profile with more channels: `pactl list sinks` shows them."
 )
 
 _LONGEST_FADE_S = 0.5
@@ -73,11 +73,13 @@ class SoundCardSink(LiveSink):
         the system's default. On Windows, WASAPI comes first among the interfaces.
     channels : the channel of each hand, counted from 1: by name {"left": 3, "right": 4} or in the hands' order [3, 4];
         None for 1, 2, ... Channels without a hand stay silent.
+    n_channels : number of channels to open; None for the last hand's, at least 2. Give a sound server the number of the
+        card: it spreads a stream of fewer channels over all of them.
     latency : of the device's buffer [s], or "low" or "high" for a value of its driver.
     sample_rate_hz : of the device; None for the session's if the device accepts it, else the device's own.
     block_frames : frames that the device requests at a time; fewer allow a shorter "low", and cost more calls.
     on_event : an EventCallback or None.
-    Raises: ConfigError: an invalid channel, latency, rate or block; MissingExtra: sounddevice is not installed.
+    Raises: ConfigError: an invalid channel, number, latency, rate or block; MissingExtra: sounddevice is not installed.
     """
 
     def __init__(
@@ -85,6 +87,7 @@ class SoundCardSink(LiveSink):
         device: str | int | None = None,
         *,
         channels: Mapping[str, int] | Sequence[int] | None = None,
+        n_channels: int | None = None,
         latency: float | str = DEFAULT_LATENCY_S,
         sample_rate_hz: int | None = None,
         block_frames: int = BLOCK_FRAMES,
@@ -96,6 +99,7 @@ class SoundCardSink(LiveSink):
         self._card_line = _CardLine(
             device,
             _checked_channels(channels),
+            _checked_count(n_channels),
             _checked_latency(latency),
             _checked_rate(sample_rate_hz),
             _checked_block(block_frames),
@@ -117,6 +121,7 @@ class _CardLine:
         self,
         device: str | int | None,
         channels: Mapping[str, int] | tuple[int, ...] | None,
+        n_channels: int | None,
         latency: float | str,
         rate_hz: int | None,
         block_frames: int,
@@ -124,6 +129,7 @@ class _CardLine:
         self._wanted_device = device
         self._block_frames = block_frames
         self._channels = channels
+        self._n_channels = n_channels
         self._latency = latency
         self._rate_hz = rate_hz
         self._stream: Any = None
@@ -149,8 +155,10 @@ class _CardLine:
         return float(stream.cpu_load) if stream is not None else 0.0
 
     def check_format(self, format: SinkFormat) -> None:
-        """Raises: ConfigError: a hand has no channel."""
-        self.columns(format)
+        """Raises: ConfigError: a hand has no channel, or one beyond the channels that are opened."""
+        last = max(self.columns(format)) + 1
+        if self._n_channels is not None and last > self._n_channels:
+            raise ConfigError(f"n_channels is {self._n_channels}, and a hand is on channel {last}; open more channels.")
 
     def columns(self, format: SinkFormat) -> list[int]:
         """Return the device's channel for each of the format's, from 0. Raises: ConfigError: a hand has none."""
@@ -179,9 +187,10 @@ class _CardLine:
             return self._open(portaudio.find_card(self._wanted_device), format)
 
     def _open(self, card: portaudio.Card, format: SinkFormat) -> int:
-        n_channels = max(self._columns) + 1
+        n_channels = self._n_channels or max(self._columns) + 1
         if n_channels > card.n_channels:
-            raise DeviceError(f"sound card {card.name!r} has {card.n_channels} channels; a hand is on {n_channels}.")
+            wanted = f"a hand is on {n_channels}" if self._n_channels is None else f"n_channels is {n_channels}"
+            raise DeviceError(f"sound card {card.name!r} has {card.n_channels} channels; {wanted}.")
         # A sound server plays a stream of one channel on all actuators.
         n_channels = min(max(STEREO, n_channels), card.n_channels)
         rate_hz, n_channels = self._setting(card, n_channels, format.sample_rate_hz)
@@ -281,6 +290,13 @@ def _checked_channels(channels: Mapping[str, int] | Sequence[int] | None) -> Map
     if len(set(numbers)) < len(numbers):
         raise ConfigError(f"channels is {checks.represented(channels)}; each hand needs a channel of its own.")
     return dict(channels) if isinstance(channels, Mapping) else numbers
+
+
+def _checked_count(n_channels: int | None) -> int | None:
+    if n_channels is None:
+        return None
+    hint = "None opens as many as the hands need."
+    return checks.whole("n_channels", n_channels, "-", at_least=STEREO, at_most=256, error=ConfigError, hint=hint)
 
 
 def _checked_latency(latency: float | str) -> float | str:

@@ -161,9 +161,10 @@ class TeeSink(PulledSink):
 
     def _report_failed(self, sink: ActuatorSink, cause: Exception) -> None:
         self._faults += 1
-        message = f"{type(sink).__name__} gets no more of the mix, the other sinks play on: {cause}"
+        name = type(sink).__name__
+        message = f"{name} gets no more of the mix, the other sinks play on: {cause}"
         try:
-            self._pass_on(SinkEvent("fault", message, time.monotonic()))
+            self._pass_on(SinkEvent("fault", message, time.monotonic(), name))
         except Exception:  # an error in the game's callback must not silence the other sinks
             self._faults += 1
 
@@ -241,15 +242,16 @@ class _Buffer:
         """Return the block that is being recorded. Raises: DeviceError: there is none: a recorder was pulled itself."""
         if self._block is None:
             raise DeviceError("this sink is part of a TeeSink, which passes it the mix; pull the TeeSink instead.")
-        return self._block
+        return self._block.copy()
 
     def read(self, start: int, n_frames: int) -> Block:
-        """Return frames from a position on; missing ones are rendered."""
+        """Return frames from a position on, as a copy; missing ones are rendered."""
         missing = start + n_frames - self.head
         if missing > 0:
             self.advance(missing)
         first = len(self._samples) - (self.head - start)
-        return self._samples[first : first + n_frames]
+        # A sink may scale its block in place: the other sinks would play that, past the safety layer.
+        return self._samples[first : first + n_frames].copy()
 
 
 class _Reader:

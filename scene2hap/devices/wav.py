@@ -9,6 +9,7 @@ from pathlib import Path
 
 import soundfile
 
+from scene2hap.audio.files import LARGEST_WAV_BYTES
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
 from scene2hap.common.printable import quoted
@@ -27,7 +28,8 @@ class WavSink(PulledSink):
 
     The file appears under its name when the sink is closed, at the latest when the program ends. Ctrl-C and
     `sys.exit` close it too; a session whose `with` block fails by an error leaves none. Samples are integers: the
-    header of a float file contains a time stamp, so equal runs would give different files.
+    header of a float file contains a time stamp, so equal runs would give different files. A WAV file holds 4 GiB: 50
+    minutes of ten channels at 48 kHz. For longer takes let the path end in .rf64, which is WAV with longer lengths.
     Raises: ConfigError: no path, or one with the suffix of another kind of file.
     """
 
@@ -39,8 +41,12 @@ class WavSink(PulledSink):
             )
         if os.path.exists(self.path) and not os.path.isfile(self.path):
             raise ConfigError(f"path {quoted(path)} is a device or a pipe; give that of a file.")
-        if self.path.suffix.lower() not in ("", ".wav", ".wave"):
-            raise ConfigError(f"path is {quoted(path)}; WavSink writes WAV, so that it must end in .wav.")
+        if self.path.suffix.lower() not in ("", ".wav", ".wave", ".rf64"):
+            raise ConfigError(
+                f"path is {quoted(path)}; WavSink writes WAV, so that it must end in .wav, or for takes of more than "
+                "4 GiB in .rf64."
+            )
+        self._container = "RF64" if self.path.suffix.lower() == ".rf64" else "WAV"
         self._draft = self.path
         self._file: soundfile.SoundFile | None = None
         self._fill: Fill | None = None
@@ -68,7 +74,12 @@ class WavSink(PulledSink):
             self.path.parent.mkdir(parents=True, exist_ok=True)
             self._draft.touch()  # unlike libsndfile, it names the reason of a failure
             self._file = soundfile.SoundFile(
-                path_in_c(self._draft), "w", format.sample_rate_hz, len(format.channels), subtype="PCM_24", format="WAV"
+                path_in_c(self._draft),
+                "w",
+                format.sample_rate_hz,
+                len(format.channels),
+                subtype="PCM_24",
+                format=self._container,
             )
         except (OSError, soundfile.SoundFileError) as cause:
             give_back(self._key, self)
@@ -86,10 +97,19 @@ class WavSink(PulledSink):
         self._fill = fill
 
     def pull(self, n_frames: int) -> Block:
-        """Request, write and return the next frames. Raises: DeviceError: they cannot be written, as on a full disk."""
+        """Request, write and return the next frames.
+
+        Raises: DeviceError: they cannot be written, as on a full disk, or beyond 4 GiB.
+        """
         if self._fill is None or self._file is None:
             raise DeviceError(f"WavSink {self.path} is not started; start the session that it belongs to first.")
         block = self._fill(n_frames)
+        n_bytes = 3 * self._file.channels * (self._frames + len(block))
+        if self._container == "WAV" and n_bytes > LARGEST_WAV_BYTES:
+            raise DeviceError(
+                f"{self.path} cannot be written after {self._frames} frames: a WAV file holds 4 GiB. Let the path of a "
+                "longer take end in .rf64, or lower the session's sample_rate_hz."
+            )
         try:
             self._file.write(block)
         except (OSError, soundfile.SoundFileError) as cause:

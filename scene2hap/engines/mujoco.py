@@ -10,7 +10,7 @@ from scene2hap.common.calls import clear_calls
 from scene2hap.common.warning import warn_of
 from scene2hap.engines.link import EngineLink
 from scene2hap.errors import ConfigError
-from scene2hap.scene.engines import mujoco as engine
+from scene2hap.scene.engines import mujoco as engine, mujoco_contacts
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.session import HapticSession, Touch
@@ -60,14 +60,14 @@ class MuJoCoLink(EngineLink):
                 raise ConfigError(unknown_hand(hand, session.hands))
         self._engine.warn_of_fixed_hands(hands or {})
 
-    def _step(self) -> engine.ContactPoints | None:
+    def _step(self) -> mujoco_contacts.ContactPoints | None:
         # As arrays, since a step may have hundreds of contact points.
-        return engine.contact_points(self._data) if self._engine.reports else None
+        return mujoco_contacts.contact_points(self._data) if self._engine.reports else None
 
     def _reported(self, steps: Sequence[Any]) -> tuple[Sequence[Touch], Sequence[Contact] | None]:
         if self._engine.reports:
             # From then on the adapter reports these points as those of one step.
-            self._engine.points = steps[0] if len(steps) == 1 else engine.points_of_steps(steps)
+            self._engine.points = steps[0] if len(steps) == 1 else mujoco_contacts.points_of_steps(steps)
         return super()._reported([super()._step()])
 
 
@@ -85,13 +85,13 @@ class _MuJoCo:
     ) -> None:
         self._model, self._data, self._has_contacts = model, data, has_contacts
         self._how: dict[str, Any] = {"geom_groups": geom_groups, "unit_m": unit_m}
-        self._hands = {hand: engine.geoms_below(model, data, body) for hand, body in hands.items()}
+        self._hands = {hand: mujoco_contacts.geoms_below(model, data, body) for hand, body in hands.items()}
         self.reports = has_contacts or bool(hands)
-        self.points: engine.ContactPoints | None = None
+        self.points: mujoco_contacts.ContactPoints | None = None
 
     def warn_of_fixed_hands(self, bodies: Mapping[str, str]) -> None:
         for hand, part in self._hands.items():
-            fixed = engine.out_of_reach(self._model, part, self._how["geom_groups"])
+            fixed = mujoco_contacts.out_of_reach(self._model, part, self._how["geom_groups"])
             if fixed:
                 named = ", ".join(map(repr, fixed[:_MOST_NAMED])) + (", ..." if len(fixed) > _MOST_NAMED else "")
                 warn_of(
@@ -107,10 +107,12 @@ class _MuJoCo:
         return [
             Touch(hand, object_id, point_m)
             for hand, part in self._hands.items()
-            for object_id, point_m in engine.touched(self._model, self._data, part, points=self.points, **self._how)
+            for object_id, point_m in mujoco_contacts.touched(
+                self._model, self._data, part, points=self.points, **self._how
+            )
         ]
 
     def contacts(self) -> Sequence[Contact] | None:
         if not self._has_contacts:
             return None
-        return engine.contacts(self._model, self._data, points=self.points, **self._how)
+        return mujoco_contacts.contacts(self._model, self._data, points=self.points, **self._how)

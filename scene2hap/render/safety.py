@@ -165,6 +165,11 @@ class SafetyLayer:
         return safe
 
     @property
+    def is_late(self) -> bool:
+        """True if the watchdog has expired: no `feed` came within its time."""
+        return self._watchdog_s is not None and self._clock() - self._fed_at > self._watchdog_s
+
+    @property
     def stats(self) -> SafetyStats:
         """Counters of the changes so far."""
         return SafetyStats(
@@ -179,9 +184,7 @@ class SafetyLayer:
     def _may_play(self) -> bool:
         if self._is_released:
             return False
-        if self._watchdog_s is None:
-            return True
-        is_late = self._clock() - self._fed_at > self._watchdog_s
+        is_late = self.is_late
         is_tripping = is_late and not self._is_tripped
         self._is_tripped = is_late
         if is_tripping:

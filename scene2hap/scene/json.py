@@ -16,7 +16,7 @@ import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
 from scene2hap.common import checks
-from scene2hap.common.printable import read_json
+from scene2hap.common.json_texts import read_json
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits

@@ -58,6 +58,7 @@ from scene2hap.session.hand_frames import HandFrames
 from scene2hap.session.impacts.felt_impacts import Impact, Impacts
 from scene2hap.session.likely_mistakes import (
     NOT_STARTED,
+    NOT_UPDATED,
     LikelyMistakes,
     warn_if_not_baked,
     warn_if_other_actuator,
@@ -244,7 +245,9 @@ class HapticSession:
         """Return the touches of tracked points, such as finger tips, for a game without collisions of its own.
 
         A point touches each object whose surface is at most `within_m` in front of it [m], or at most `depth_m` [m] if
-        the point is inside, behind the nearest face. The touch is at the nearest point of the surface.
+        the point is inside, behind the nearest face. The touch is at the nearest point of the surface. An object that
+        the hand touched at the last update is touched up to 1.5 times these distances, so that a finger at the limit
+        does not start and stop to touch with the noise of its tracker.
         Parameters: points_m : for each hand its points (n, 3) or one point (3,) in the world [m], None while the hand
         is not tracked; moved : poses that the next update will get, by id.
         Raises: SessionError: an unknown hand, points that are not finite or of another shape, a distance below 0 or
@@ -259,7 +262,8 @@ class HapticSession:
                 self._state.require(object_id)
                 require_pose(object_id, pose)
             poses = {**poses, **moved}
-        return self._proximity.touches(points, self._state.objects, poses, within_m, depth_m)
+        touched = self._hand_frames.felt
+        return self._proximity.touches(points, self._state.objects, poses, within_m, depth_m, touched)
 
     def strike(
         self,
@@ -449,6 +453,8 @@ class HapticSession:
             map(self._with_running, explained.felt), key=lambda one: -(one.gain_db + one.level_db + one.running_db)
         )
         waiting = NOT_STARTED if self._output.sink is not None and not self._output.is_started else self._output.problem
+        if waiting is None and self._output.is_late:
+            waiting = NOT_UPDATED.format(self.config.watchdog_s)
         reasons = explained.reasons if waiting is None else (waiting, *explained.reasons)
         return replace(explained, felt=tuple(felt), impacts=self._impacts.felt_by(hand), reasons=reasons)
 
@@ -593,7 +599,10 @@ class HapticSession:
         self._output.start(self._mixed, self.hands)
 
     def stop(self) -> None:
-        """Fade out, stop the sink and release it; may be called twice. In a forked child the parent's sink plays on."""
+        """Fade out, stop the sink and release it; may be called twice, and by any thread.
+
+        In a forked child the parent's sink plays on.
+        """
         self._output.stop()
 
     close = stop
@@ -643,7 +652,7 @@ class HapticSession:
 
     @property
     def safety_stats(self) -> SafetyStats:
-        """Counters of the changes by the safety layer of a started session."""
+        """Counters of the changes by the safety layer since the last `start`, also after `stop`."""
         return self._output.safety_stats
 
     @cached_property

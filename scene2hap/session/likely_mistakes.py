@@ -50,6 +50,8 @@ MOST_NAMED = 10
 
 NOT_STARTED = "The sink plays nothing: call start(), or use the session in a `with` block."
 
+NOT_UPDATED = "The sink is silent, since no update came for {:g} s: call it in each frame, changed or not."
+
 UNPLAYED = 50
 """Updates with touches before a sink that was never started is named: a second of a slow game. A game may update a few
 times before it starts the sink."""

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import NamedTuple, TypeVar
 
+import numpy as np
+
 from scene2hap.bundle import HapticBundle
 from scene2hap.contact.graph import ContactChange, ContactGraph
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.errors import UnknownObject
 from scene2hap.haptics import ObjectHaptics
-from scene2hap.propagation.protocol import Body, ContactNetwork
+from scene2hap.propagation.protocol import Body, ContactNetwork, placing_of
 from scene2hap.scene.geometry import Vector
 from scene2hap.scene.objects import VERTICAL, Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
@@ -50,6 +52,11 @@ class SceneState:
         """The present scene."""
         scene = SceneSnapshot(self._scene.name, self._scene.up_axis, tuple(self.objects.values()))
         return scene.with_poses(self.graph.poses)
+
+    @property
+    def up_axis(self) -> int:
+        """Number of the vertical axis."""
+        return VERTICAL[self._scene.up_axis]
 
     @property
     def bodiless(self) -> tuple[str, ...]:
@@ -120,16 +127,16 @@ class SceneState:
     def is_closed(self, object_id: str, other: str, way: RelativePoses) -> bool:
         """Whether an object is a drawer, or the like, that another encloses where the scene has it: see `slams`."""
         item, holder, pose = self.objects[object_id], self.objects[other], self.graph.pose
-        up_axis = VERTICAL[self._scene.up_axis]
-        return is_closed(item, holder, way, (pose(object_id), pose(other)), up_axis)
+        return is_closed(item, holder, way, (pose(object_id), pose(other)), self.up_axis)
 
     def on_plate(self, object_id: str, point_m: tuple[float, float, float]) -> tuple[float, float] | None:
         """Coordinates of a world point [m] along length and width of an object's plate; None without a plate."""
-        if object_id not in self.bodies:
+        body = self.bodies.get(object_id)
+        if body is None:
             return None
         # Not `poses`: the next move would then have to copy the mapping.
-        corner = PlatePoses(self.objects, self.bodies, {object_id: self.graph.pose(object_id)}, self._corners)
-        ((x, y),) = ContactNetwork(self.bodies, (), corner).on_body(object_id, [point_m]).tolist()
+        corners = PlatePoses(self.objects, self.bodies, {object_id: self.graph.pose(object_id)}, self._corners)
+        ((x, y),) = placing_of(body, corners.get(object_id))(np.array([point_m])).tolist()
         return x, y
 
     def meeting(self, object_id: str) -> Body:

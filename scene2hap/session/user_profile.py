@@ -37,45 +37,19 @@ _MOST_POINTS = 1000
 
 
 class LevelAndLimit(Settings):
-    """A level and a limit.
+    """A level, also against frequency, and a limit.
 
     gain_db : level that is added to the level of all vibration [dB].
     max_amplitude : largest sample, as a share of full scale, 0.0001..1 [-].
+    curve_db : level against frequency, as points (frequency [Hz], level [dB]) of rising frequency. It is interpolated
+        between points over the logarithm of frequency, and constant beyond them.
     """
 
     of_what = "user"
 
     gain_db: float = Field(default=0.0, ge=-MOST_DB, le=MOST_DB, allow_inf_nan=False)
     max_amplitude: float = Field(default=1.0, ge=LEAST_AMPLITUDE, le=1.0)
-
-
-class UserProfile(LevelAndLimit):
-    """Levels and limits of one person. Levels add up, and the smallest limit counts.
-
-    gain_db : level of all vibration [dB].
-    max_amplitude : largest sample at every hand, 0.0001..1 [-].
-    curve_db : level against frequency, as points (frequency [Hz], level [dB]) of rising frequency, for people who feel
-        some frequencies more or less than others. The level is interpolated between points over the logarithm of
-        frequency, and constant beyond them.
-    hands : a level and a limit for single hands, by name: left/right balance.
-    devices : a level and a limit for single devices, by the name of the actuator that the session is set to.
-    """
-
     curve_db: tuple[tuple[float, float], ...] = ()
-    hands: dict[str, LevelAndLimit] = Field(default_factory=dict)
-    devices: dict[str, LevelAndLimit] = Field(default_factory=dict)
-
-    if TYPE_CHECKING:
-        # Type checkers do not know which other forms pydantic accepts.
-        def __init__(
-            self,
-            *,
-            gain_db: float = 0.0,
-            max_amplitude: float = 1.0,
-            curve_db: Sequence[Sequence[float]] = (),
-            hands: Mapping[str, LevelAndLimit | Mapping[str, float]] = ...,
-            devices: Mapping[str, LevelAndLimit | Mapping[str, float]] = ...,
-        ) -> None: ...
 
     @field_validator("curve_db")
     @classmethod
@@ -88,14 +62,44 @@ class UserProfile(LevelAndLimit):
             raise ConfigError(f"curve_db has frequencies {[f for f, _ in points]} Hz; they must rise.")
         return points
 
+    def _own_level_db(self, at_hz: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The level at some frequencies [dB], in their shape, without those of hands and devices."""
+        if not self.curve_db:
+            return np.full(at_hz.shape, self.gain_db)
+        frequency, curve = np.array(self.curve_db).T
+        return np.asarray(self.gain_db + np.interp(np.log(np.maximum(at_hz, 1e-9)), np.log(frequency), curve))
+
+
+class UserProfile(LevelAndLimit):
+    """Levels and limits of one person. Levels add up, and the smallest limit counts.
+
+    gain_db : level of all vibration [dB].
+    max_amplitude : largest sample at every hand, 0.0001..1 [-].
+    curve_db : level against frequency, for people who feel some frequencies more or less than others.
+    hands : levels and a limit for single hands, by name: left/right balance, and the response of each actuator.
+    devices : levels and a limit for single devices, by the name of the actuator that the session is set to.
+    """
+
+    hands: dict[str, LevelAndLimit] = Field(default_factory=dict)
+    devices: dict[str, LevelAndLimit] = Field(default_factory=dict)
+
+    if TYPE_CHECKING:
+        # Type checkers do not know which other forms pydantic accepts.
+        def __init__(
+            self,
+            *,
+            gain_db: float = 0.0,
+            max_amplitude: float = 1.0,
+            curve_db: Sequence[Sequence[float]] = (),
+            hands: Mapping[str, LevelAndLimit | Mapping[str, Any]] = ...,
+            devices: Mapping[str, LevelAndLimit | Mapping[str, Any]] = ...,
+        ) -> None: ...
+
     def level_db(self, hand: str, device: str, frequencies_hz: ArrayLike) -> NDArray[np.float64]:
         """Return the level at a hand, on a device, at some frequencies [dB], in the shape of the frequencies."""
         at_hz = np.asarray(frequencies_hz, dtype=np.float64)
-        level = self.gain_db + sum(one.gain_db for one in self._special(hand, device))
-        if not self.curve_db:
-            return np.full(at_hz.shape, level)
-        frequency, curve = np.array(self.curve_db).T
-        return np.asarray(level + np.interp(np.log(np.maximum(at_hz, 1e-9)), np.log(frequency), curve))
+        levels = [one._own_level_db(at_hz) for one in (self, *self._special(hand, device))]
+        return np.asarray(sum(levels))
 
     def limits(self, hands: Sequence[str], device: str) -> NDArray[np.float64]:
         """Return the largest sample at each hand on a device (n_hands,), as a share of full scale [-]."""
@@ -105,7 +109,7 @@ class UserProfile(LevelAndLimit):
     def is_neutral(self) -> bool:
         """True if the profile changes nothing."""
         parts = (self, *self.hands.values(), *self.devices.values())
-        return not self.curve_db and all(one.gain_db == 0.0 and one.max_amplitude == 1.0 for one in parts)
+        return all(one.gain_db == 0.0 and one.max_amplitude == 1.0 and not one.curve_db for one in parts)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write all settings that differ from the default as JSON. Raises: ConfigError: the file cannot be written."""

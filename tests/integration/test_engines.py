@@ -222,7 +222,7 @@ def test_attached_parts_touch_for_their_hand() -> None:
 def test_a_body_without_a_name_is_a_hand_by_its_id() -> None:
     """The id that the scene shows is the only one that such a body has."""
     mujoco = pytest.importorskip("mujoco", reason="needs the extra mujoco")
-    from scene2hap.scene.engines.mujoco import geoms_below
+    from scene2hap.scene.engines.mujoco_contacts import geoms_below
 
     model = mujoco.MjModel.from_xml_string(HAND.replace('name="nail"', ""))
     data = mujoco.MjData(model)
@@ -679,7 +679,7 @@ def test_last_step_of_a_frame_counts_without_being_collected() -> None:
 
 
 def test_contact_points_of_steps_are_those_of_the_last_step_of_each_pair() -> None:
-    from scene2hap.scene.engines.mujoco import ContactPoints, points_of_steps
+    from scene2hap.scene.engines.mujoco_contacts import ContactPoints, points_of_steps
 
     def step(*rows: tuple[int, int, float]) -> ContactPoints:
         table = np.array(rows).reshape(-1, 3)

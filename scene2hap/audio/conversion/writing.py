@@ -12,6 +12,7 @@ import soundfile
 from numpy.typing import NDArray
 
 from scene2hap.audio.conversion.meter import Block, Meter
+from scene2hap.audio.files import LARGEST_WAV_BYTES
 from scene2hap.common.text_files import path_in_c
 from scene2hap.errors import AudioError
 
@@ -25,8 +26,6 @@ FORMATS = {
 
 _FULL_SCALE = 2.0**23
 _NEARLY_FULL = 1.0 - 1.0 / _FULL_SCALE
-_LARGEST_WAV_BYTES = 0xFFFF_0000
-"""Lengths in a WAV header have 32 bits. Longer files become RF64 (EBU Tech 3306), which most programs read."""
 
 
 def check_target(source: Path, output: Path, suffixes: Collection[str], *, overwrite: bool) -> None:
@@ -49,7 +48,7 @@ def opened_for_writing(
 ) -> soundfile.SoundFile:
     """Open the draft `beside` of an output file of about `n_expected` frames. Raises: AudioError."""
     container, subtype = FORMATS[output.suffix.lower()]
-    if container == "WAV" and 3 * channels * n_expected > _LARGEST_WAV_BYTES:
+    if container == "WAV" and 3 * channels * n_expected > LARGEST_WAV_BYTES:
         container = "RF64"
     beside.touch()  # unlike libsndfile, it names the reason of a failure
     try:

@@ -12,8 +12,8 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from scene2hap.common.arrays import Floats
-from scene2hap.contact.geometry.vectors import Indices, highest, lowest
+from scene2hap.common.arrays import Floats, Indices
+from scene2hap.contact.geometry.vectors import highest, lowest
 
 # Pairs that overlap along the sweep axis and are compared at once; of triangles: some 20 MB.
 _CHUNK = 1 << 13

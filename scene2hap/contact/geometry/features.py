@@ -17,8 +17,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats
-from scene2hap.contact.geometry.vectors import Indices, Marks, cross, dot
+from scene2hap.common.arrays import Bools, Floats, Indices
+from scene2hap.contact.geometry.vectors import cross, dot
 
 Features = NDArray[np.uint8]
 """Bits of each triangle (m,): bit k for its edge from corner k to the next, bit 3 + k for its corner k."""
@@ -77,7 +77,7 @@ class _SharedEdges(NamedTuple):
         return self.edges[self.begins]
 
 
-def _are_flat(points: Floats, twins: _SharedEdges) -> Marks:
+def _are_flat(points: Floats, twins: _SharedEdges) -> Bools:
     """Mark the groups (n,) of twins that lie inside a flat face, with triangles on both sides."""
     a, b, c = points[:, ::3], points[:, 1::3], points[:, 2::3]
     normals = cross(b - a, c - a)
@@ -89,7 +89,7 @@ def _are_flat(points: Floats, twins: _SharedEdges) -> Marks:
     inwards = cross(normal, points[:, _next(first)] - start)
     way = points[:, _next(_next(twins.edges))] - start[:, twins.group]
     height, side = np.abs(dot(way, normal[:, twins.group])), dot(way, inwards[:, twins.group])
-    flat: Marks = (
+    flat: Bools = (
         (np.maximum.reduceat(height, twins.begins) <= _FLAT_M)
         & (np.minimum.reduceat(side, twins.begins) < 0)
         & ~np.logical_or.reduceat(is_slender[twins.edges // 3], twins.begins)
@@ -104,7 +104,7 @@ def _are_flat(points: Floats, twins: _SharedEdges) -> Marks:
     return flat & ~is_bent[face[first // 3]]
 
 
-def _faces(twins: _SharedEdges, flat: Marks, n_triangles: int) -> Indices:
+def _faces(twins: _SharedEdges, flat: Bools, n_triangles: int) -> Indices:
     """Return the face number (m,) of each triangle; flat edges join triangles into faces."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components

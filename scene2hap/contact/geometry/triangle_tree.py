@@ -15,11 +15,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Floats, Indices
 from scene2hap.compiled import compiled
 from scene2hap.contact.geometry.boxes import Boxes
 from scene2hap.contact.geometry.features import Features
-from scene2hap.contact.geometry.vectors import Indices, Triple
+from scene2hap.contact.geometry.vectors import Triple
 
 ALL = 1 << 60
 """More triangles than any mesh has."""

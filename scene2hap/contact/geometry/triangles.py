@@ -23,9 +23,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Bools, Floats
 from scene2hap.contact.geometry.features import Features
-from scene2hap.contact.geometry.vectors import Marks, cross, dot
+from scene2hap.contact.geometry.vectors import cross, dot
 
 # Squared sine below which edges count as parallel and corners as collinear, since the result would be rounding noise.
 _PARALLEL = 1e-12
@@ -135,18 +135,18 @@ class _Faces(NamedTuple):
         distance = np.where(crosses & self._inside(points), 0.0, np.inf)
         return Meetings(distance, points, points)
 
-    def _inside(self, points: Floats) -> Marks:
+    def _inside(self, points: Floats) -> Bools:
         """Mark the points (3, m, n) that are inside their faces when projected along the normal."""
         uu, uv, vv = self.dots
         w = points - self.origin[:, None]
         wu, wv = dot(w, self.u[:, None]), dot(w, self.v[:, None])
         beta = (vv * wu - uv * wv) / self.area2
         gamma = (uu * wv - uv * wu) / self.area2
-        within: Marks = (beta >= -_RIM) & (gamma >= -_RIM) & (beta + gamma <= 1 + _RIM)
+        within: Bools = (beta >= -_RIM) & (gamma >= -_RIM) & (beta + gamma <= 1 + _RIM)
         return within
 
 
-def _present(features: Features) -> tuple[Marks, Marks]:
+def _present(features: Features) -> tuple[Bools, Bools]:
     """Return marks (3, n) of the edges, and of the corners, that are among the features (n,)."""
     present = (features & _BITS[:, None]) != 0
     return present[:3], present[3:]
@@ -192,7 +192,7 @@ def _edges_with_edges(p: Floats, q: Floats, loose: float) -> Meetings:
     return Meetings(distance.reshape(9, n), on_p.reshape(3, 9, n), on_q.reshape(3, 9, n))
 
 
-def _goes_on_both_sides(r: Floats, d: Floats, g: Floats, loose: float) -> Marks:
+def _goes_on_both_sides(r: Floats, d: Floats, g: Floats, loose: float) -> Bools:
     """Mark the pairs of edges d and g, whose starts are r apart, that have ends within `loose` of each other's edge on
     both sides of their nearest points."""
     a, b, e = dot(d, d), dot(d, g), dot(g, g)
@@ -203,7 +203,7 @@ def _goes_on_both_sides(r: Floats, d: Floats, g: Floats, loose: float) -> Marks:
     start_q = r + _cut(-c / a) * d
     end_q = r + _cut((b - c) / a) * d - g
     p0, p1, q0, q1 = (dot(way, way) <= loose * loose for way in (start_p, end_p, start_q, end_q))
-    goes_on: Marks = np.where(b >= 0, (p0 | q0) & (p1 | q1), (p0 | q1) & (p1 | q0))
+    goes_on: Bools = np.where(b >= 0, (p0 | q0) & (p1 | q1), (p0 | q1) & (p1 | q0))
     return goes_on
 
 

@@ -9,12 +9,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.common.arrays import Floats
 
-Indices = NDArray[np.intp]
-Marks = NDArray[np.bool_]
 Triple = tuple[float, float, float]
 Rows = tuple[Triple, Triple, Triple]
 AABB = tuple[Triple, Triple]

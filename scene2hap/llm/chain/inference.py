@@ -13,7 +13,7 @@ import asyncio
 import os
 from collections.abc import Awaitable, Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple, TypeVar, cast
+from typing import Any, TypeVar, cast
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
@@ -21,9 +21,6 @@ from scene2hap.common.run_coroutine import run_waiting
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, RequestRejected, Scene2HapError
 from scene2hap.haptics import (
-    LEAST_MASS_KG,
-    LONGEST_PASSAGE_S,
-    MOST_MASS_KG,
     ObjectHaptics,
     SourceState,
     is_unknown,
@@ -32,6 +29,7 @@ from scene2hap.haptics import (
 from scene2hap.llm import BACKENDS
 from scene2hap.llm.answers import MaterialAnswer, ObjectAnswer, SceneAnswer, StateAnswer, VibrationAnswer
 from scene2hap.llm.chain.config import InferenceConfig
+from scene2hap.llm.chain.object_haptics import Analysis, haptics_of, haptics_without_answer, times_of
 from scene2hap.llm.chain.questions import ConcurrencyLimit, Questions
 from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.chain.sharing import copies, of_any_scene, reachable
@@ -39,17 +37,12 @@ from scene2hap.llm.lexicon.categories import ObjectFacts, judge
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.prompts.quoting import clean
 from scene2hap.llm.protocol import LLMBackend
-from scene2hap.llm.validation.masses import bounded_mass_kg, mass_fault
 from scene2hap.llm.validation.materials import Estimate, from_model, from_table, without_answer
-from scene2hap.llm.validation.plausibility import row_of
-from scene2hap.llm.validation.sizes import surface_size
-from scene2hap.materials import Material
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.copies import material_names
 from scene2hap.scene.hinges import kinematic_chains
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.scene.surface import plate_sizes
 
 _Result = TypeVar("_Result")
 
@@ -137,24 +130,6 @@ def infer_haptics(
     return run_waiting(running, "infer_scene(...)").objects
 
 
-@dataclass(frozen=True)
-class _Analysis:
-    """The answers about one object before its material is known."""
-
-    answer: ObjectAnswer
-    analyst: str
-    states: tuple[SourceState, ...]
-    describers: tuple[str, ...]
-
-
-class _Mass(NamedTuple):
-    """The mass of an object [kg], None if unknown; its origin, and a doubt about it, each "" for none."""
-
-    kg: float | None = None
-    origin: str = ""
-    doubt: str = ""
-
-
 class _Chain:
     """One run over one scene."""
 
@@ -191,7 +166,7 @@ class _Chain:
         self._report.skipped["copies"] += len(wanted) - len(firsts)
         done = 0
 
-        async def analyse(item: SceneObject) -> _Analysis:
+        async def analyse(item: SceneObject) -> Analysis:
             nonlocal done
             analysis = await self._analyse(item)
             if self._settings.inference == "eager":
@@ -220,17 +195,17 @@ class _Chain:
         categories = {item.id: said[item.id].object_category if item.id in said else "" for item in self._scene.objects}
         return {key: self._with_unmet_needs(key, haptics, categories) for key, haptics in said.items()}
 
-    async def _analyse(self, item: SceneObject) -> _Analysis:
+    async def _analyse(self, item: SceneObject) -> Analysis:
         facts, images = self._shown(item)
         answer, analyst = await self._questions.ask("object_analyzer", item.id, facts, ObjectAnswer, images)
         if self._settings.inference == "eager":
             self._begin_material(answer.material_category)
         if not answer.vibrates:
             self._report.skipped["silent"] += 1
-            return _Analysis(answer, analyst, (), ())
+            return Analysis(answer, analyst, (), ())
         described = await _all_ended(self._describe(item, answer, state) for state in answer.states)
         states, describers = zip(*described, strict=True)
-        return _Analysis(answer, analyst, states, describers)
+        return Analysis(answer, analyst, states, describers)
 
     def _shown(self, item: SceneObject) -> tuple[dict[str, Any], Sequence[bytes]]:
         """Return the facts and pictures of an object for the Object Analyzer."""
@@ -267,7 +242,7 @@ class _Chain:
         }
         try:
             words, who = await self._questions.ask("vibration_describer", item.id, facts, VibrationAnswer)
-            sentence, keywords, times = words.sentence, words.keywords, _times(words)
+            sentence, keywords, times = words.sentence, words.keywords, times_of(words)
         except _SPOILED as problem:
             self._report.errors[f"{item.id}, state {state.name}"] = str(problem)
             # The state itself has an answer. Its name is description enough to find or make a sound.
@@ -302,9 +277,9 @@ class _Chain:
             self._report.flags[word] = estimate.flags
         return estimate
 
-    async def _estimates(self, analyses: Mapping[str, _Analysis | Scene2HapError]) -> dict[str, Estimate]:
+    async def _estimates(self, analyses: Mapping[str, Analysis | Scene2HapError]) -> dict[str, Estimate]:
         """Return the estimate of each object's material, by object id. Requests missing estimates."""
-        answered = {key: found for key, found in analyses.items() if isinstance(found, _Analysis)}
+        answered = {key: found for key, found in analyses.items() if isinstance(found, Analysis)}
         needed = set(answered)
         if self._settings.inference == "lazy":
             needed &= reachable((key for key, found in answered.items() if found.states), self._graph)
@@ -318,63 +293,15 @@ class _Chain:
         return {key: {**unreached, **estimates}[word] for key, word in words.items()}
 
     def _haptics(
-        self, item: SceneObject, found: _Analysis | Scene2HapError, estimates: Mapping[str, Estimate]
+        self, item: SceneObject, found: Analysis | Scene2HapError, estimates: Mapping[str, Estimate]
     ) -> ObjectHaptics:
         if isinstance(found, Scene2HapError):
             self._report.errors[item.id] = str(found)
-            return _unanswered(item, found)
-        answer, estimate = found.answer, estimates[item.id]
-        size_m, doubts = surface_size(answer, item.size_m)
-        analysed = ("object_category", "material_category", "estimated_size_m", "usage", "vibrates")
-        provenance = {**dict.fromkeys(analysed, found.analyst), "material": estimate.provenance}
-        for state, who in zip(found.states, found.describers, strict=True):
-            provenance[f"states.{state.name}"] = who
-        reasons = {
-            "category": answer.category_reason,
-            "size": answer.size_reason,
-            "vibration": answer.vibration_reason,
-        }
-        mass = self._mass(item, answer, estimate.material, found.analyst)
-        if mass.kg is not None:
-            provenance["mass_kg"] = mass.origin
-        feet = _feet(answer)
-        if feet is not None:
-            provenance["feet"] = found.analyst
-        if mass.doubt:
-            reasons["mass"] = mass.doubt
+            return haptics_without_answer(item, found)
+        haptics, doubts = haptics_of(item, found, estimates[item.id], self._scene.up_axis)
         if doubts:
-            reasons["size"] = "; ".join((answer.size_reason, *doubts))
-        if every_doubt := (*doubts, *filter(None, (mass.doubt,))):
-            self._report.doubts[item.id] = every_doubt
-        if estimate.flags:
-            reasons["material"] = "; ".join(estimate.flags)
-        return ObjectHaptics(
-            object_category=answer.object_category,
-            material_category=answer.material_category,
-            material=estimate.material,
-            estimated_size_m=size_m,
-            usage=answer.usage,
-            vibrates=bool(found.states),
-            states=found.states,
-            confidence=answer.confidence,
-            reasons=reasons,
-            provenance=provenance,
-            mass_kg=mass.kg,
-            feet=feet,
-        )
-
-    def _mass(self, item: SceneObject, answer: ObjectAnswer, material: Material | None, analyst: str) -> _Mass:
-        # Simulators give frames and helpers placeholders such as 1e-8 kg.
-        if item.mass_kg is not None and LEAST_MASS_KG <= item.mass_kg <= MOST_MASS_KG:
-            return _Mass(item.mass_kg, "scene")
-        mass_kg, whole_m = answer.estimated_mass_kg, item.whole_size_m(self._scene.up_axis)
-        if mass_kg is None:
-            return _Mass()
-        if why := mass_fault(mass_kg, whole_m):
-            return _Mass(doubt=f"mass: {why}; none is used")
-        if material is not None:
-            mass_kg = bounded_mass_kg(mass_kg, whole_m, material.density_kg_m3)
-        return _Mass(mass_kg, analyst)
+            self._report.doubts[item.id] = doubts
+        return haptics
 
     def _with_unmet_needs(self, object_id: str, haptics: ObjectHaptics, categories: Mapping[str, str]) -> ObjectHaptics:
         """Add a note to each state that needs a contact no object here offers. Such a state stays silent until then."""
@@ -398,7 +325,7 @@ async def _all_ended(running: Iterable[Awaitable[_Result]]) -> list[_Result]:
     return cast("list[_Result]", ended)
 
 
-def _known(outcome: _Analysis | BaseException) -> _Analysis | Scene2HapError:
+def _known(outcome: Analysis | BaseException) -> Analysis | Scene2HapError:
     """Return the outcome of an analysis. Raises: any error that is not of this library."""
     if isinstance(outcome, BaseException) and not isinstance(outcome, Scene2HapError):
         raise outcome
@@ -416,42 +343,12 @@ async def _scene_category(scene: SceneSnapshot, questions: Questions) -> str:
     return answer.scene_category
 
 
-def _times(words: VibrationAnswer) -> dict[str, Any]:
-    """Return the fields of a description about the start and the stop of a state.
-
-    Starts and stops slower than `LONGEST_PASSAGE_S` cannot be felt, so longer times count as this one.
-    """
-    named = ("start_up_s", "wind_down_s", "spins", "on_s", "off_s")
-    stated = {name: value for name in named if (value := getattr(words, name)) is not None}
-    passages = {name: min(stated[name], LONGEST_PASSAGE_S) for name in ("start_up_s", "wind_down_s") if name in stated}
-    return stated | passages
-
-
-def _feet(answer: ObjectAnswer) -> Material | None:
-    """Return the material of an object's feet; None if it has no feet or the table has no such material."""
-    row = row_of(answer.feet_material) if answer.feet_material else None
-    return row.material if row is not None else None
-
-
 def _word(category: str) -> str:
     return " ".join(category.lower().split())
 
 
 def _unreached(word: str) -> Estimate:
     return from_table(word) or Estimate(None, "no estimate: no source reaches it")
-
-
-def _unanswered(item: SceneObject, problem: Scene2HapError) -> ObjectHaptics:
-    return ObjectHaptics(
-        object_category="unknown",
-        material_category="unknown",
-        material=None,
-        estimated_size_m=plate_sizes.with_thickness(item.size_m),
-        usage="unknown",
-        vibrates=False,
-        confidence=0.0,
-        provenance={"object_category": f"error: {problem}"},
-    )
 
 
 def _seems_to_vibrate(item: SceneObject) -> bool:

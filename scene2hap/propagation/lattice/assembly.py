@@ -11,14 +11,12 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Floats, Indices
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
-Ints = NDArray[np.intp]
 Block = tuple[Floats, int, int]
 """Values (n_pieces, a, b, c, d), `first` and `other`: rows start at `first` and are counted (a, c), columns start at
 `other` and are counted (b, d)."""
@@ -31,7 +29,7 @@ class Pattern:
     in the grid, relative to its piece; place : (n,) place of all in the grid, rising.
     """
 
-    def __init__(self, number: Ints, local: Ints, place: Ints) -> None:
+    def __init__(self, number: Indices, local: Indices, place: Indices) -> None:
         self._place = place
         copy = copies_of(place)
         self._n_copies = int(copy.max(initial=0)) + 1
@@ -46,7 +44,7 @@ class Pattern:
     def __len__(self) -> int:
         return len(self._place)
 
-    def summed(self, *matrices: Sequence[Block]) -> tuple[Ints, Ints, list[Floats]]:
+    def summed(self, *matrices: Sequence[Block]) -> tuple[Indices, Indices, list[Floats]]:
         """Sum each of several matrices over all pieces.
 
         Parameters: matrices : the blocks of each, all in the same order.
@@ -71,13 +69,13 @@ class Pattern:
         return rows, columns, [total[filled] for total in sums]
 
 
-def copies_of(places: Ints) -> Ints:
+def copies_of(places: Indices) -> Indices:
     """Number of each copy (n,) among those at the same place, given rising places (n,)."""
-    copies: Ints = np.arange(len(places)) - np.searchsorted(places, places)
+    copies: Indices = np.arange(len(places)) - np.searchsorted(places, places)
     return copies
 
 
-def sparse(rows: Ints, columns: Ints, values: Floats, shape: tuple[int, int]) -> csr_array:
+def sparse(rows: Indices, columns: Indices, values: Floats, shape: tuple[int, int]) -> csr_array:
     """Return a sparse matrix from its entries, given with rising rows."""
     from scipy.sparse import csr_array
 

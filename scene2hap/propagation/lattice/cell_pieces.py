@@ -16,7 +16,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Floats, Indices
 from scene2hap.scene.surface.outline import Outline
 
 PIXELS = 5
@@ -24,8 +24,6 @@ PIXELS = 5
 the default resolution are no better, since the size of cells then determines the error."""
 _WHOLE = 1 - 1e-12
 """Least share from which a pixel counts as wholly within, but for rounding."""
-
-Ints = NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,8 +37,8 @@ class CellPieces:
 
     cells: tuple[int, int]
     inside: NDArray[np.bool_]
-    piece: Ints
-    cell: Ints
+    piece: Indices
+    cell: Indices
     shares: Floats
 
     @classmethod
@@ -73,7 +71,7 @@ class CellPieces:
         found._add_rim(np.stack(np.nonzero(is_rim)), coverage, off, [np.diff(each) for each in lines])
         return found
 
-    def _add_rim(self, rim: Ints, coverage: Floats, off: Floats, sides_m: list[Floats]) -> None:
+    def _add_rim(self, rim: Indices, coverage: Floats, off: Floats, sides_m: list[Floats]) -> None:
         """Add rim pixels (2, n), which lie partly within or in narrow gaps, to the shares.
 
         Parameters: coverage, off : share and centroid of pixels, see `Outline.covered`; sides_m : along x and y [m].
@@ -106,7 +104,7 @@ class CellPieces:
         return (ny + 3, 1) if nx >= ny else (1, nx + 3)
 
     @cached_property
-    def nearest_pixel(self) -> Ints:
+    def nearest_pixel(self) -> Indices:
         """Nearest pixel of the plate to each pixel (2, nx PIXELS, ny PIXELS)."""
         return _nearest(self.inside)
 
@@ -117,7 +115,7 @@ class CellPieces:
         return whole
 
     @property
-    def beside(self) -> tuple[Ints, Ints]:
+    def beside(self) -> tuple[Indices, Indices]:
         """Pairs of pieces (n, 2) that touch across the side of a cell, along x and along y."""
         found = []
         for piece, inside in ((self.piece, self.inside), (self.piece.T, self.inside.T)):
@@ -127,7 +125,7 @@ class CellPieces:
             found.append(np.stack(np.divmod(pairs, len(self.cell)), axis=1))
         return found[0], found[1]
 
-    def nearest(self, points_m: Floats, x_m: Floats, y_m: Floats) -> tuple[Ints, Floats]:
+    def nearest(self, points_m: Floats, x_m: Floats, y_m: Floats) -> tuple[Indices, Floats]:
         """Piece of each point, given the lines between pixels, and the point's position; for a point beside the plate,
         the middle of the nearest pixel."""
         pixel = [
@@ -144,7 +142,7 @@ class CellPieces:
         return self.piece[near[0], near[1]], np.where(is_in[:, None], points_m, middle)
 
 
-def nodes_of(pieces: CellPieces) -> tuple[Ints, Ints]:
+def nodes_of(pieces: CellPieces) -> tuple[Indices, Indices]:
     """Nodes (n_pieces, 16) of each piece, and the place (n_nodes,) of each node in the grid, rising.
 
     A node whose support of 4 by 4 cells is cut into parts has one copy in each part. Adjacent pieces share the nodes
@@ -170,14 +168,14 @@ def nodes_of(pieces: CellPieces) -> tuple[Ints, Ints]:
     return rank[part].reshape(-1, 16), place[order]
 
 
-def places(along: range, across: range, steps: tuple[int, int]) -> Ints:
+def places(along: range, across: range, steps: tuple[int, int]) -> Indices:
     """Places of a block of the grid (n_along n_across,), counted along y first; see `CellPieces.steps`."""
-    found: Ints = np.add.outer(steps[0] * np.array(along), steps[1] * np.array(across)).ravel()
+    found: Indices = np.add.outer(steps[0] * np.array(along), steps[1] * np.array(across)).ravel()
     return found
 
 
-def _nearest(inside: NDArray[np.bool_]) -> Ints:
+def _nearest(inside: NDArray[np.bool_]) -> Indices:
     from scipy.ndimage import distance_transform_edt
 
-    indices: Ints = distance_transform_edt(~inside, return_distances=False, return_indices=True).astype(np.intp)
+    indices: Indices = distance_transform_edt(~inside, return_distances=False, return_indices=True).astype(np.intp)
     return indices

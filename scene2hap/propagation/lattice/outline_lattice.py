@@ -14,9 +14,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Floats, Indices
 from scene2hap.propagation.lattice.assembly import Pattern, copies_of, sparse
 from scene2hap.propagation.lattice.cell_pieces import CellPieces, nodes_of, places
 from scene2hap.propagation.lattice.lattice import Lattice, rounding_k4
@@ -30,8 +29,6 @@ if TYPE_CHECKING:
 
 _LEAST = 1e-9
 """Stiffness of a node, relative to the median of all, below which the node is left out."""
-
-Ints = NDArray[np.intp]
 
 
 def outline_lattice(plate: Plate, outline: Outline, axes: tuple[SplineAxis, SplineAxis]) -> Lattice:
@@ -77,9 +74,9 @@ class _Nodes:
     of the others; stiffness : (n_nodes,) diagonal of K without these scales [m^-2].
     """
 
-    of_pieces: Ints
-    place: Ints
-    number: Ints
+    of_pieces: Indices
+    place: Indices
+    number: Indices
     scale: Floats
     stiffness: Floats
 
@@ -102,7 +99,7 @@ class _Nodes:
         """Number of kept nodes."""
         return int(np.count_nonzero(self.scale))
 
-    def summed(self, mass: Floats, elastic: Floats, local: Ints) -> tuple[csr_array, csr_array]:
+    def summed(self, mass: Floats, elastic: Floats, local: Indices) -> tuple[csr_array, csr_array]:
         """Assemble A and K from the matrices of all pieces and the place of each node, relative to its piece (16,)."""
         row, column, sums = Pattern(self.of_pieces, local, self.place).summed([(mass, 0, 0)], [(elastic, 0, 0)])
         scale = self.scale[row] * self.scale[column]
@@ -111,7 +108,7 @@ class _Nodes:
         masses, stiffness = (sparse(row, column, (each * scale)[is_kept], (self.n_kept, self.n_kept)) for each in sums)
         return masses, stiffness
 
-    def rows(self, node: Ints, values: Floats, counts: Ints) -> csr_array:
+    def rows(self, node: Indices, values: Floats, counts: Indices) -> csr_array:
         """Rows over the kept nodes, each with `counts` of the `values` at these nodes; nodes left out are dropped."""
         row, is_kept = np.repeat(np.arange(len(counts)), counts), self.scale[node] > 0.0
         values = values[is_kept] * self.scale[node[is_kept]]

@@ -3,10 +3,7 @@
     K c = k^4 c          omega = k^2 sqrt(D / m)          integral of m phi_i phi_j = 1 kg if i = j, else 0
 
 K is the Ritz stiffness matrix of `ritz`. If the edges at both ends of an axis are equal, modes are even or odd along
-it. The eigenproblem then splits into up to four smaller ones. Each is solved for the compliance (K + s)^-1, whose
-largest eigenvalues belong to the lowest modes. The eigenvalues of K itself grow as the eighth power of the basis size:
-rounding errors would then hide rigid motions and the lowest modes of large or slender plates. Stiffer modes are not
-computed. Powers of the compliance approximate their response, in a larger basis than that of the modes (`Fineness`).
+it. The eigenproblem then splits into up to four smaller ones (`mode_block`).
 
 Letters: k [rad/m] wavenumber, D [N m], m [kg/m2] mass per area, omega [rad/s], phi [kg^-1/2] shape, s [m^-4] shift.
 Source: see `ritz`.
@@ -17,7 +14,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -28,12 +24,11 @@ from scene2hap.common.calls import clear_attributes
 from scene2hap.common.counted import counted
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.domain import as_frequencies, warn_if_slow
+from scene2hap.propagation.modal.mode_block import ModeBlock, cholesky, modes_below
 from scene2hap.propagation.modal.ritz import AxisBasis, axis_bases, products, stiffness
 from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate, require_plate
 from scene2hap.propagation.points import as_points
 from scene2hap.scene.geometry import frozen
-
-Number = TypeVar("Number", np.float64, np.complex128)
 
 LARGEST_BLOCK = 3000
 """Most functions in one eigenproblem; more are an error. This many take some 20 s, and give hundreds of modes."""
@@ -53,11 +48,6 @@ Tuned: the static deflection of a long strip is within 0.2 dB of Timoshenko's; w
 _NARROWEST = 1e-3
 """Width over length of the narrowest strip with free long edges for which `first_bending_hz` is computed: it bends as a
 beam, as do all narrower ones, and rounding hides the modes of a strip of 1e-5."""
-ORDERS = 4
-"""Powers of compliance in `ModeBlock.beyond`. Each gains a factor of 6.8 below the top frequency, 5e-4 in all."""
-_PLACES = (1 + np.cos(np.pi * (np.arange(ORDERS) + 0.5) / ORDERS)) / 2
-_THROUGH = np.linalg.inv(np.vander(_PLACES, increasing=True))
-"""Matrix from values at the Chebyshev nodes between 0 and 1 to the coefficients of the interpolating polynomial."""
 
 
 @dataclass(frozen=True)
@@ -80,56 +70,6 @@ class Fineness:
 
 FINE = Fineness()
 """Fineness of `plate_modes`; `least` is tuned for the small plates of `modal_plate`."""
-
-
-@dataclass(frozen=True, eq=False)
-class ModeBlock:
-    """The modes of one symmetry, and the response of the stiffer spectrum, whose modes are not computed.
-
-    x, y : the wider basis of each axis, n = n_x n_y products; k4 : (n_modes,) k^4 [m^-4], rising, 0 for rigid motions;
-    vectors : (n, n_modes) orthonormal columns; shift : s [m^-4]; stiffer_k4 : lower bound on k^4 of the stiffer
-    spectrum [m^-4].
-    """
-
-    x: AxisBasis
-    y: AxisBasis
-    k4: NDArray[np.float64]
-    vectors: NDArray[np.float64]
-    poisson_ratio: float
-    shift: float
-    stiffer_k4: float
-
-    def deflections(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Every mode's shape at points (n_points, 2) [m], normalised over the area -> (n_points, n_modes) [1/m]."""
-        return products(self.x, self.y, points_m) @ self.vectors
-
-    @cached_property
-    def _factor(self) -> NDArray[np.float64]:
-        """Cholesky factor of K + shift."""
-        return _cholesky(self.x, self.y, self.poisson_ratio, self.shift)
-
-    def beyond(self, forces: NDArray[np.float64], q: NDArray[Number]) -> NDArray[Number]:
-        """Response of the stiffer spectrum to forces (n, n_forces), for q (n_q,) = k^4 / (1 + j eta) [m^-4]:
-        (K - q)^-1 without its modes -> (n, n_forces, n_q), by a polynomial in the compliance
-
-            C sum over j of a_j(q) C^j forces          C = (K + s)^-1
-
-        The sum equals 1 / (1 - (q + s) C) at the Chebyshev nodes between 0 and the largest compliance without modes.
-        """
-        from scipy.linalg.lapack import dpotrs
-
-        n, n_forces = forces.shape
-        most = 1 / (self.stiffer_k4 + self.shift)
-        powers = _THROUGH @ (1 / (1 - most * _PLACES[:, None] * (q + self.shift)))
-        answer, orders = self._without_modes(forces), np.empty((ORDERS, n, n_forces))
-        for order in orders:
-            order[:] = self._without_modes(dpotrs(self._factor, answer, lower=1)[0])
-            answer = order / most
-        answers: NDArray[Number] = orders.reshape(ORDERS, -1).T @ powers
-        return answers.reshape(n, n_forces, -1)
-
-    def _without_modes(self, columns: NDArray[np.float64]) -> NDArray[np.float64]:
-        return columns - self.vectors @ (self.vectors.T @ columns)
 
 
 @clear_attributes
@@ -259,7 +199,7 @@ def first_bending_hz(plate: Plate) -> float:
     least = [_NARROWEST * longest if pair == "FF" else 0.0 for pair in pairs]
     x, y = (axis_bases(*of_axis, 8) for of_axis in zip(pairs, map(max, sides, least), strict=True))
     shift = SHIFT * (math.pi / longest) ** 4
-    compliances = [dpotri(_cholesky(u, v, nu, shift), lower=1, overwrite_c=1)[0] for u in x for v in y]
+    compliances = [dpotri(cholesky(u, v, nu, shift), lower=1, overwrite_c=1)[0] for u in x for v in y]
     k4 = np.sort(np.concatenate([1 / np.linalg.eigvalsh(one) - shift for one in compliances]))
     return float(math.sqrt(k4[n_rigid_motions(plate)]) / plate.wavenumber_per_root_omega**2 / (2 * math.pi))
 
@@ -350,7 +290,7 @@ def modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness) -> Pl
     nu, few, many = plate.material.poisson_ratio, _pairs(plate, terms), _pairs(plate, wider)
     blocks = []
     for own, pair in zip(few, many, strict=True):
-        k4, vectors = _solve(*own, nu, shift, limit)
+        k4, vectors = modes_below(*own, nu, shift, limit)
         blocks.append(ModeBlock(*pair, k4, _padded(vectors, own, pair), nu, shift, max(limit, 5 * shift)))
     k4 = np.concatenate([block.k4 for block in blocks])
     block = np.concatenate([np.full(len(block.k4), i) for i, block in enumerate(blocks)])
@@ -393,34 +333,3 @@ def _padded(
 
 def _n_terms(k_length: float, fineness: Fineness) -> int:
     return max(fineness.least, math.ceil(fineness.per_k_length * k_length) + fineness.more)
-
-
-def _cholesky(x: AxisBasis, y: AxisBasis, poisson_ratio: float, shift: float) -> NDArray[np.float64]:
-    """Lower triangle L of K + shift = L L^T."""
-    from scipy.linalg.lapack import dpotrf
-
-    matrix = stiffness(x, y, poisson_ratio)
-    matrix.flat[:: len(matrix) + 1] += shift
-    # The matrix is symmetric: its transpose is in LAPACK's column order and need not be copied.
-    factor: NDArray[np.float64] = dpotrf(matrix.T, lower=1, overwrite_a=1)[0]
-    return factor
-
-
-def _solve(
-    x: AxisBasis, y: AxisBasis, poisson_ratio: float, shift: float, limit: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Solve K c = k^4 c up to k^4 = `limit`. Returns k^4 (n_modes,), rising, and vectors (n, n_modes)."""
-    from scipy.linalg.lapack import dormqr, dpotri, dstein, dsterf, dsytrd
-
-    compliance = dpotri(_cholesky(x, y, poisson_ratio, shift), lower=1, overwrite_c=1)[0]
-    n = len(compliance)
-    reflectors, diagonal, beside, tau, _ = dsytrd(compliance, lower=1, lwork=64 * n, overwrite_a=1)
-    values, _ = dsterf(diagonal, beside)
-    wanted = values[values > 1 / (limit + shift)]
-    # Inverse iteration: the few vectors take less than half as long as by relatively robust representations.
-    vectors, failed = dstein(diagonal, beside, wanted, np.ones(n, dtype=np.intc), np.full(n, n, dtype=np.intc))
-    if failed:
-        vectors = np.linalg.eigh(np.diag(diagonal) + np.diag(beside, 1) + np.diag(beside, -1))[1][:, n - len(wanted) :]
-    turned = dormqr("L", "N", reflectors[1:, :-1], tau, vectors[1:], 64 * vectors.shape[1] + 64)[0]
-    shapes: NDArray[np.float64] = np.vstack([vectors[:1], turned]).astype(np.float64, copy=False)
-    return 1 / wanted[::-1] - shift, shapes[:, ::-1]

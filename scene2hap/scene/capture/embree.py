@@ -18,14 +18,13 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats32
+from scene2hap.common.arrays import Floats32, Ints
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB, light
 from scene2hap.scene.capture.faces import planes, separates
 from scene2hap.scene.capture.protocol import Ids, Pixels, Selection
 from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.views import Camera
 
-Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 Levels = NDArray[np.uint8]
 

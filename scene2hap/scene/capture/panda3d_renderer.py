@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Floats, Ints
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB, light
 from scene2hap.scene.capture.faces import Extents, extents, in_view, planes, separates
 from scene2hap.scene.capture.panda3d_screen import Screen, textured
@@ -22,7 +22,6 @@ from scene2hap.scene.capture.protocol import Ids, Pixels, Selection
 from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.views import Camera
 
-Ints = NDArray[np.int64]
 Bytes = NDArray[np.uint8]
 
 # Objects are encoded as digits in this base, plus one, since zero is the background. Textures multiply by 255 / 256 and

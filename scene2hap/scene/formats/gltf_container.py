@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common.checks import represented
-from scene2hap.common.printable import read_json
+from scene2hap.common.json_texts import read_json
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.files import inside, read_bytes

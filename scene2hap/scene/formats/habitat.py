@@ -43,7 +43,8 @@ from scene2hap.common.printable import writable
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.formats.habitat_dataset import Dataset, Json, Kind, Template, read_object, rows_of, scale_of
+from scene2hap.scene.formats.habitat_dataset import Dataset, Kind, Template, rows_of, scale_of
+from scene2hap.scene.formats.habitat_folder import Json, read_object
 from scene2hap.scene.formats.habitat_names import Names, ObjectNames
 from scene2hap.scene.geometry import Bounds, bounds_of, joined
 from scene2hap.scene.pose import Pose
@@ -73,7 +74,7 @@ def read_habitat(
     """
     document = _document(path)
     dataset = Dataset(path, assets_root)
-    reader = _Reader(path.name, document, dataset, ObjectNames(names, dataset), read_model)
+    reader = _Reader(path.name, document, dataset, ObjectNames(names, dataset.folder), read_model)
     with np.errstate(all="ignore"):  # overflows are refused when meshes are placed
         roots = reader.nodes()
     reader.warn()
@@ -87,13 +88,13 @@ def referenced_files(path: Path, assets_root: Path | None) -> list[Path]:
     """
     document = _document(path)
     dataset = Dataset(path, assets_root)
-    ObjectNames(None, dataset)
+    ObjectNames(None, dataset.folder)
     for kind, place, row in _rows(path.name, document):
         template = _template(dataset, kind, place, row)
         if template is not None and template.model is not None:
             for file in _with_parts(template.model):
-                dataset.count(file)
-    return list(dict.fromkeys(dataset.files))
+                dataset.folder.count(file)
+    return list(dict.fromkeys(dataset.folder.files))
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,9 +183,9 @@ class _Reader:
         return model
 
     def _read(self, file: Path, place: str) -> _Model:
-        self._dataset.count(file)
+        self._dataset.folder.count(file)
         try:
-            authored = self._read_model(file, self._dataset.root)
+            authored = self._read_model(file, self._dataset.folder.root)
         except MissingExtra:
             raise
         except SceneError as error:

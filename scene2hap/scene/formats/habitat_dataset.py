@@ -23,11 +23,9 @@ the frame in assets/ResourceManager.cpp (`buildFrameFromAttributes`) and geo/Coo
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, Literal
 from urllib.parse import quote
@@ -36,26 +34,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common import checks
-from scene2hap.common.printable import quoted, read_json, writable
+from scene2hap.common.printable import quoted, writable
 from scene2hap.common.warning import warn_of
-from scene2hap.errors import SceneError, SceneFormatError, reason_of
+from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.files import inside, outside, read_bytes
+from scene2hap.scene.files import inside
+from scene2hap.scene.formats.habitat_folder import DatasetFolder, Json, is_file, resolved, with_slashes
 from scene2hap.scene.tree import Matrix
 
-Json = dict[str, Any]
 Kind = Literal["objects", "stages", "articulated_objects"]
 
 MODEL_SUFFIXES = (".glb", ".gltf", ".obj", ".dae", ".stl", ".ply")
-_DATASET_SUFFIX = ".scene_dataset_config.json"
 _CONFIG_SUFFIX: dict[Kind, str] = {
     "objects": ".object_config.json",
     "stages": ".stage_config.json",
     "articulated_objects": ".ao_config.json",
 }
 _URDF = ".urdf"
-# Folders above a scene that are searched for its dataset file (assumed: converted datasets have up to four).
-_LEVELS_UP = 5
+_SUFFIXES = (*_CONFIG_SUFFIX.values(), _URDF, *MODEL_SUFFIXES)
 # Shapes that Habitat generates; they have no file.
 _PRIMITIVE = re.compile(r"(capsule3D|cone|cube|cylinder|icosphere|uvSphere)(Solid|Wireframe)(_.*)?")
 _OWN_NAME = "%%CONFIG_NAME_AS_ASSET_FILENAME%%"
@@ -90,28 +86,19 @@ class _Source:
 
 
 class Dataset:
-    """The templates of the dataset of a scene. Nothing outside `root` is opened."""
+    """The templates of the dataset of a scene."""
 
     def __init__(self, scene: Path, assets_root: Path | None) -> None:
-        """Find the dataset file of a scene, at most five folders above it and not above `assets_root`.
+        """Find the dataset of a scene; see `DatasetFolder`.
 
         Raises: SceneFormatError, SceneError: the dataset file is broken or too large.
         """
-        self._n_listed = 0
-        self._listings: dict[Path, list[str]] = {}
-        self._n_bytes = 0
-        self._outside: list[str] = []
         self._indices: dict[Kind, _Index] = {}
         self._below: _Index | None = None
         self._templates: dict[tuple[Kind, str], Template] = {}
-        self._documents: dict[Path, Json] = {}
-        self.files: list[Path] = []
-        """All files that were read, or that contain models to be read."""
-        self.folder: Path
-        self.folder, found = self._found(scene, assets_root)
-        self.root: Path = self.folder if assets_root is None else assets_root
-        self._document, self._file = self._of_scene(found, scene) if found else ({}, "")
-        self.count(scene)
+        self.folder: DatasetFolder = DatasetFolder(scene, assets_root)
+        self._document, self._file = self._of_scene(scene)
+        self.folder.count(scene)
 
     def template(self, kind: Kind, name: str, place: str) -> Template:
         """Return the template called `name`; `place` is where the scene names it, for messages.
@@ -122,51 +109,15 @@ class Dataset:
             self._templates[kind, name] = self._read(kind, name, place)
         return self._templates[kind, name]
 
-    def has(self, file: Path) -> bool:
-        """Return True if the file exists inside the root."""
-        return _is_file(file) and _resolved(file).is_relative_to(_resolved(self.root))
-
-    def count(self, file: Path) -> None:
-        """Count a file that is read. Raises: SceneError: all files together are too large."""
-        try:
-            self._n_bytes += file.stat().st_size
-        except (OSError, ValueError):
-            return  # the reader of the file reports the error
-        self.files.append(file)
-        limits.at_most("the size of all files of the dataset in bytes", self._n_bytes, "MAX_DATASET_BYTES")
-
-    # -- the dataset file --------------------------------------------------------------------------------------------
-
-    def _found(self, scene: Path, assets_root: Path | None) -> tuple[Path, list[Path]]:
-        """Return the dataset's folder, and the dataset files in it."""
-        here = _resolved(scene).parent
-        folders = [here, *here.parents][: _LEVELS_UP + 1]
-        if assets_root is not None:
-            top = _resolved(assets_root)
-            folders = [folder for folder in folders if folder.is_relative_to(top)]
-            folders += [] if top in folders else [top]
-        for folder in folders:
-            files = [folder / name for name in self._listed(folder) if name.endswith(_DATASET_SUFFIX)]
-            if files:
-                return folder, files
-        return (here if assets_root is None else assets_root), []
-
-    def _of_scene(self, files: list[Path], scene: Path) -> tuple[Json, str]:
+    def _of_scene(self, scene: Path) -> tuple[Json, str]:
         """Return content and name of the dataset file that lists the scene's folder, else of the first dataset file."""
-        here = _resolved(scene).parent
+        here, folder = resolved(scene).parent, self.folder
+        files = folder.dataset_files
         for file in files if len(files) > 1 else ():
-            patterns = _patterns(self._json(file), "scene_instances", file.name).get(".json", [])
-            if any(_resolved(match) == here for one in patterns for match in self._matching(self.folder, one)):
-                return self._json(file), file.name
-        return self._json(files[0]), files[0].name
-
-    def _json(self, file: Path) -> Json:
-        if file not in self._documents:
-            if not _resolved(file).is_relative_to(_resolved(self.root)):
-                raise outside("the dataset", str(file), _resolved(self.root), _resolved(file))
-            self.count(file)
-            self._documents[file] = read_object(file)
-        return self._documents[file]
+            patterns = _patterns(folder.document(file), "scene_instances", file.name).get(".json", [])
+            if any(resolved(match) == here for one in patterns for match in folder.matching(one)):
+                return folder.document(file), file.name
+        return (folder.document(files[0]), files[0].name) if files else ({}, "")
 
     # -- names -------------------------------------------------------------------------------------------------------
 
@@ -183,7 +134,7 @@ class Dataset:
             known = [*index.names(), *map(_plain, self._all_below().names())]
             hint = checks.did_you_mean(_plain(name).rpartition("/")[2], known)
             raise SceneError(
-                f"{place} names the template {name!r}, which the dataset in {quoted(self.folder)} does not have. "
+                f"{place} names the template {name!r}, which the dataset in {quoted(self.folder.path)} does not have. "
                 f"{hint or self._advice(kind)}"
             )
         attributes, folder, written_in = self._attributes(kind, source)
@@ -191,9 +142,10 @@ class Dataset:
         return self._template(kind, {**self._defaults(kind), **attributes}, folder, written_in, own_name)
 
     def _advice(self, kind: Kind) -> str:
-        if self._outside:
+        if self.folder.outside:
             return (
-                f"{self._outside[0]} lies outside {quoted(self.root)}; give assets_root=<the folder that holds both>."
+                f"{self.folder.outside[0]!r} of {self._file} lies outside {quoted(self.folder.root)}; give "
+                "assets_root=<the folder that holds both>."
             )
         return (
             f"It wants a file NAME{_CONFIG_SUFFIX[kind]} or NAME{_models(kind)[0]} there; give "
@@ -226,7 +178,7 @@ class Dataset:
             wanted = _CONFIG_SUFFIX[kind] if suffix == ".json" else suffix
             if suffix == ".json" or suffix in _models(kind):
                 for pattern in dict.fromkeys(ones):
-                    for handle, file in self._files_of(pattern, wanted):
+                    for handle, file in self.folder.files_of(pattern, wanted):
                         yield handle.removesuffix(wanted), _Source(file)
 
     def _all_below(self) -> _Index:
@@ -234,8 +186,8 @@ class Dataset:
         it."""
         if self._below is None:
             self._below = _Index()
-            found = list(self._walk())
-            for suffix in (*_CONFIG_SUFFIX.values(), _URDF, *MODEL_SUFFIXES):
+            found = list(self.folder.all_files(_SUFFIXES))
+            for suffix in _SUFFIXES:
                 for handle, file in found:
                     if handle.endswith(suffix):
                         handle = handle.removesuffix(suffix) if suffix in MODEL_SUFFIXES else handle
@@ -248,15 +200,17 @@ class Dataset:
         """Return the document of a template, the folder for its relative paths, and the place of the document."""
         if (file := source.file) is not None:
             is_config = file.name.endswith(_CONFIG_SUFFIX[kind])
-            return (self._json(file) if is_config else {_key(kind): file.name}), file.parent, file.name
+            return (self.folder.document(file) if is_config else {_key(kind): file.name}), file.parent, file.name
         original = source.attributes.get("original_file")
         own = source.attributes.get("attributes", {})
         if original is None:
-            return own, self.folder, source.place
+            return own, self.folder.path, source.place
         if not isinstance(original, str):
             raise SceneFormatError(f"{source.place}.original_file is {original!r}; it must be a file name.")
-        file = inside(self.root, self.folder, quote(_slashes(original)), f"{source.place}.original_file")
-        return {**self._json(file), **own}, file.parent, source.place
+        file = inside(
+            self.folder.root, self.folder.path, quote(with_slashes(original)), f"{source.place}.original_file"
+        )
+        return {**self.folder.document(file), **own}, file.parent, source.place
 
     def _defaults(self, kind: Kind) -> Json:
         section = _section(self._document, kind, self._file)
@@ -301,69 +255,14 @@ class Dataset:
         )
 
     def _model(self, kind: Kind, folder: Path, name: str, place: str) -> Path:
-        file = inside(self.root, folder, quote(_slashes(name)), place)
+        file = inside(self.folder.root, folder, quote(with_slashes(name)), place)
         if file.suffix.lower() not in _models(kind):
             kinds = ", ".join(_models(kind))
             raise SceneFormatError(f"{place} is {name!r}; models of these kinds are read: {kinds}.")
-        if not _is_file(file):
+        if not is_file(file):
             near = checks.near_files(file) or "Download the dataset with its models."
             raise SceneError(f"{place} is {name!r}, but there is no file {quoted(file)}. {near}")
         return file
-
-    # -- folders -----------------------------------------------------------------------------------------------------
-
-    def _listed(self, folder: Path) -> list[str]:
-        """Return the names in a folder in order, without hidden ones; none if it cannot be read."""
-        if folder not in self._listings:
-            try:
-                found = sorted(name for name in os.listdir(folder) if not name.startswith("."))
-            except (OSError, ValueError):
-                found = []
-            self._listings[folder] = found
-        names = self._listings[folder]
-        # Cached folders count too: a file may hold many patterns for one folder.
-        self._n_listed += 1 + len(names)
-        limits.at_most("the number of files in the dataset's folders", self._n_listed, "MAX_DATASET_FILES")
-        return names
-
-    def _matching(self, folder: Path, pattern: str) -> list[Path]:
-        """Return the folders and files that match a pattern such as `objects/*`."""
-        found = [folder]
-        for part in _slashes(pattern).split("/"):
-            if part == "..":
-                found = [one.parent for one in found]
-            elif any(character in part for character in "*?["):
-                found = [one / name for one in found for name in self._listed(one) if fnmatchcase(name, part)]
-            elif part not in ("", "."):
-                found = [one / part for one in found]
-        return found
-
-    def _files_of(self, pattern: str, suffix: str) -> Iterator[tuple[str, Path]]:
-        """Yield handles and files of a suffix that match a pattern, or that are in folders that match it."""
-        top = _resolved(self.root)
-        for match in self._matching(self.folder, pattern):
-            if not _resolved(match).is_relative_to(top):
-                self._outside.append(f"{pattern!r} of {self._file}")
-                continue
-            handle = writable(Path(os.path.relpath(match, self.folder)).as_posix())
-            if match.name.endswith(suffix):
-                yield handle, match
-            else:
-                for name in self._listed(match):
-                    if name.endswith(suffix):
-                        yield f"{handle}/{writable(name)}".removeprefix("./"), match / name
-
-    def _walk(self) -> Iterator[tuple[str, Path]]:
-        """Yield handles and paths of all configurations and models of the dataset. Folder links are not followed."""
-        folders = [("", self.folder)]
-        while folders:
-            handle, folder = folders.pop()
-            for name in self._listed(folder):
-                path = folder / name
-                if name.endswith((*MODEL_SUFFIXES, _URDF, *_CONFIG_SUFFIX.values())):
-                    yield handle + writable(name), path
-                elif path.is_dir() and not path.is_symlink():
-                    folders.append((f"{handle}{writable(name)}/", path))
 
 
 class _Index:
@@ -418,22 +317,6 @@ def rows_of(value: object, place: str) -> list[Any]:
     return value or []
 
 
-def read_object(file: Path) -> Json:
-    """Return the object in a JSON file.
-
-    Raises: SceneFormatError: it is not JSON, or no object. SceneError: it is missing, unreadable or too large.
-    """
-    try:
-        document = read_json(read_bytes(file).decode("utf-8-sig"))
-    except SceneError:
-        raise
-    except (ValueError, RecursionError) as cause:  # ValueError: also text that is not UTF-8
-        raise SceneFormatError(f"{file.name!r} is not JSON: {cause}.") from cause
-    if not isinstance(document, dict):
-        raise SceneFormatError(f"{file.name!r} holds a {type(document).__name__}; it must be a JSON object.")
-    return document
-
-
 def _models(kind: Kind) -> tuple[str, ...]:
     """Return the suffixes of model files for a kind of template."""
     return (_URDF,) if kind == "articulated_objects" else MODEL_SUFFIXES
@@ -478,26 +361,8 @@ def _patterns(document: Json, kind: str, place: str) -> Mapping[str, list[str]]:
 
 def _plain(name: str) -> str:
     """Return a template's name without the suffix of a configuration or model."""
-    name = _slashes(name)
-    for suffix in (*_CONFIG_SUFFIX.values(), _URDF, *MODEL_SUFFIXES):
+    name = with_slashes(name)
+    for suffix in _SUFFIXES:
         if name.endswith(suffix):
             return name.removesuffix(suffix)
     return name
-
-
-def _slashes(path: str) -> str:
-    return path.replace("\\", "/").removeprefix("./")
-
-
-def _resolved(path: Path) -> Path:
-    try:
-        return path.resolve()
-    except (OSError, ValueError, RuntimeError) as cause:  # a zero byte, a cycle of links
-        raise SceneError(f"{quoted(path)} is no usable file name: {reason_of(cause)}.") from cause
-
-
-def _is_file(path: Path) -> bool:
-    try:
-        return path.is_file()
-    except (OSError, ValueError):
-        return False

@@ -27,7 +27,8 @@ from scene2hap.common.printable import writable
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.files import decoded, read_bytes
-from scene2hap.scene.formats.habitat_dataset import Dataset, plain_name, read_object
+from scene2hap.scene.formats.habitat_dataset import plain_name
+from scene2hap.scene.formats.habitat_folder import DatasetFolder, read_object
 
 Names = Mapping[str, str] | str | os.PathLike[str]
 """Names by template, or the path of a table of them."""
@@ -53,18 +54,18 @@ _MOST_BYTES = 1 << 26
 class ObjectNames:
     """Object names by template."""
 
-    def __init__(self, given: Names | None, dataset: Dataset) -> None:
+    def __init__(self, given: Names | None, folder: DatasetFolder) -> None:
         """Read the caller's table and the dataset's tables.
 
         Raises: SceneFormatError, SceneError: the caller's table is not valid, or cannot be read.
         """
         self._tables = [] if given is None else [_given(given)]
         for place, columns in _OF_DATASETS:
-            file = dataset.folder / place
+            file = folder.path / place
             # If a table of the dataset is broken, objects lack its names, but the scene is still read.
             try:
-                if dataset.has(file):
-                    dataset.count(file)
+                if folder.has(file):
+                    folder.count(file)
                     self._tables.append(_csv(file, columns))
             except SceneError as error:
                 warn_of(f"the dataset's {place} names no objects: {error}")

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Floats, Ints
 from scene2hap.scene.geometry import cross_2d
 
 MAX_EAR_CORNERS = 512
@@ -20,8 +20,6 @@ MAX_EAR_CORNERS = 512
 _MAX_EAR_WORK = 4_000_000
 # A triangle of a fan may have the opposite orientation by this share of its face's area, due to rounding.
 _ROUNDING = 1e-7
-
-Ints = NDArray[np.int64]
 
 
 def triangulated(points: Floats, counts: Ints, indices: Ints) -> tuple[Ints, Ints]:

@@ -1,7 +1,7 @@
 """The dominant surface of a mesh: the plate that a person would name first, such as the top of a table.
 
 1. Count triangles that are drawn twice once, and wind all of them alike (`winding`).
-2. Fit a bounding box to the mesh in a frame of its own (`_frame`). So a shelf authored at 30 degrees has the measures
+2. Fit a bounding box to the mesh in a frame of its own (`frame`). So a shelf authored at 30 degrees has the measures
    of a straight one.
 3. Cast a grid of parallel rays through the box along each of the three axes. The plate's normal is the axis with the
    largest projected area. Exception: a chair's seat. If that side is level in less than two thirds of its rectangle, a
@@ -24,25 +24,23 @@ Differs: the paper does not say in which frame or on which side the rays start; 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Bools, Floats, Ints
 from scene2hap.scene.geometry import SAME_PLACE, welded
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import DominantSurface, SurfaceFlag, TriMesh
 from scene2hap.scene.surface.cuboid import cuboid_bounds_m
+from scene2hap.scene.surface.frame import LIFTED, by_uprightness, facing, pointing, tightest_frame
 from scene2hap.scene.surface.outline import Outline
 from scene2hap.scene.surface.plate_edge import windows
 from scene2hap.scene.surface.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
 from scene2hap.scene.surface.section import section_outline
 from scene2hap.scene.surface.winding import edge_keys, well_wound
-
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
 
 RAYS_PER_SIDE = 32
 """Rays along each side of the bounding box. The resolution is about 1/32 of the box (tuned: 5 ms an object)."""
@@ -54,11 +52,8 @@ _SAME_LEVEL = 0.1  # an open plate is flat if its rays meet it within this share
 _FILLED_CUT = 0.75  # least area of a cut's rectangle, as a share of the level area that rays see (a disc's is 0.95)
 _FILLED_OUTLINE = 0.5  # least area of an outline's rectangle, as a share of the whole area that rays see
 _PAIRED_SHARE = 0.5  # a plate has a thickness if this share of its rays leaves the mesh again
-_OWN_FRAME_GAIN = 0.95  # another frame replaces the author's axes only if its box is smaller than this share
 _SAME_AREA = 0.99  # sides this near in area are equal, and the more upright normal is chosen
 _RANK_DIGITS = 9  # digits of thicknesses [m] by which plates are ordered
-_LIFT_DIGITS = 3  # digits of the cosines between the vertical and axes, by which these are ordered
-_LIFTED = 0.1  # least cosine between the vertical and a normal that is not level (84 degrees)
 _UPRIGHT = 0.9  # least cosine between the vertical and a horizontal plate's normal (26 degrees)
 _THIN = 1 / 3  # greatest thickness of a horizontal plate, as a share of its width. It replaces the largest side ...
 _LYING_AREA = 0.6  # ... if its area is this share of that side's area (chairs 0.71-0.93) ...
@@ -69,8 +64,6 @@ _FULL = 0.97
 _SEEN = 0.1  # ... its area differs from the level area that rays see by less than this share of its box ...
 _LIKE = 0.5, 1.5  # ... and its area is between these multiples of the rectangle of medians ...
 _SAME_EXTENT = 1e-3  # ... or the rectangle is its box, to this share of the edges
-_SAME_DIRECTION_RAD = np.deg2rad(1.0)
-_SIDES_TRIED = 12
 # Fixed cost of a mesh and cost of each triangle, in tests of a ray against a triangle (measured: 1.5 ms, 1 us and
 # 0.1 us).
 _WORK_OF_A_MESH, _WORK_OF_A_FACE = 15_000, 10
@@ -127,12 +120,12 @@ def dominant_surface(
     used, faces = np.unique(mesh.faces, return_inverse=True)
     points, faces = mesh.vertices_m[used].T.copy(), faces.reshape(-1, 3).T.copy()
     faces = well_wound(points, faces, spend)
-    axes = _pointing(_frame(points, faces), upwards)
+    axes = pointing(tightest_frame(points, faces), upwards)
     is_open = False
     best: _Side | None = None
     most_upright: _Side | None = None
-    for axis in _by_uprightness(axes, upwards):
-        own_to_plate = _facing(axes, axis, points)
+    for axis in by_uprightness(axes, upwards):
+        own_to_plate = facing(axes, axis, points)
         placed = own_to_plate @ points
         hits = cast_grid(placed[:, faces], RAYS_PER_SIDE, spend)
         area = float(np.prod(np.ptp(placed[:2], axis=1))) * len(hits.starts) / RAYS_PER_SIDE**2
@@ -145,7 +138,7 @@ def dominant_surface(
     if best is None or most_upright is None:
         return _box(points, axes, flags)
     is_sheet = most_upright.lift(upwards) > _UPRIGHT and _is_container(most_upright, points, faces)
-    sides = (best,) if best.lift(upwards) > _LIFTED else (best, best.from_behind())
+    sides = (best,) if best.lift(upwards) > LIFTED else (best, best.from_behind())
     plate = min((_plate(side, points, faces, flags, is_sheet=is_sheet) for side in sides), key=_rank)
     may_lie = most_upright is not best and most_upright.lift(upwards) > _UPRIGHT
     return (may_lie and _lying_plate(most_upright, sides, plate, points, faces)) or plate
@@ -156,7 +149,7 @@ def box_surface(mesh: TriMesh, *, up: ArrayLike) -> DominantSurface:
 
     It takes a hundredth of the time of `dominant_surface`, see there.
     """
-    return _box(mesh.vertices_m.T, _pointing(np.eye(3), np.asarray(up, dtype=np.float64)), ())
+    return _box(mesh.vertices_m.T, pointing(np.eye(3), np.asarray(up, dtype=np.float64)), ())
 
 
 def _rank(plate: DominantSurface) -> tuple[bool, bool, float]:
@@ -196,13 +189,13 @@ def _cuboid(bounds_m: Floats, upwards: Floats) -> DominantSurface:
     """Return the result that rays would give for a box between bounds (2, 3) [m]."""
     low, high = bounds_m
     edges = high - low
-    axes = _pointing(np.eye(3), upwards)
+    axes = pointing(np.eye(3), upwards)
     areas = np.prod(edges) / edges
-    best, *others = _by_uprightness(axes, upwards)
+    best, *others = by_uprightness(axes, upwards)
     for axis in others:
         if areas[axis] > areas[best] * _SAME_AREA:
             best = axis
-    own_to_plate = _facing(axes, best, np.array(bounds_m).T)
+    own_to_plate = facing(axes, best, np.array(bounds_m).T)
     return _placed(np.abs(own_to_plate @ edges), own_to_plate @ (low + high) / 2, own_to_plate, ())
 
 
@@ -333,7 +326,7 @@ def _spans(segments: Floats, at_least: float) -> tuple[Floats, Floats] | None:
 
 def _box(points: Floats, axes: Floats, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
     """Return the box around points (3, n) as a plate, as for meshes that no ray meets, such as needles."""
-    own_to_plate = _facing(axes, int(np.argmin(np.ptp(axes @ points, axis=1))), points)
+    own_to_plate = facing(axes, int(np.argmin(np.ptp(axes @ points, axis=1))), points)
     placed = own_to_plate @ points
     size, middle = np.ptp(placed, axis=1), (placed.min(axis=1) + placed.max(axis=1)) / 2
     flags = (*flags, "box-fallback")
@@ -374,101 +367,3 @@ def _own_outline(outline: Outline, size: Floats, middle: Floats, *, is_turned: b
     if is_turned:
         outline = Outline(np.array(ring)[:, ::-1] * (1.0, -1.0) for ring in outline.rings_m)
     return outline.placed((1.0, 1.0), (float(size[0] / 2 - middle[0]), float(size[1] / 2 - middle[1])))
-
-
-# -- the frame -------------------------------------------------------------------------------------------------------
-
-
-def _frame(points: Floats, faces: Ints) -> Floats:
-    """Return axes (3, 3), one per row, of the tightest of three boxes around points (3, n) with triangles `faces` (3,
-    m).
-
-    The author's own axes are kept unless another box is clearly smaller, since legs and handles tilt any fitted box
-    slightly.
-    """
-
-    def volume(axes: Floats) -> float:
-        size = np.ptp(axes @ points, axis=1)
-        return float(np.prod(np.maximum(size, 1e-3 * size.max())))
-
-    own = np.eye(3)
-    fitted = min(_fitted_frames(points[:, faces]), key=volume, default=own)
-    return fitted if volume(fitted) < _OWN_FRAME_GAIN * volume(own) else own
-
-
-def _fitted_frames(triangles: Floats) -> Iterator[Floats]:
-    """Yield frames that rotate with triangles (3, 3, m): along the principal axes, and along the largest flat faces."""
-    b, c = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
-    doubled = np.stack([b[i - 2] * c[i - 1] - b[i - 1] * c[i - 2] for i in range(3)])
-    area = np.sqrt((doubled**2).sum(axis=0))
-    with_area = area > 0
-    if not with_area.any():
-        return
-    area, normals = area[with_area], doubled[:, with_area] / area[with_area]
-    spread = _surface_spread(triangles[:, :, with_area], area)
-    yield np.linalg.eigh(spread)[1].T
-
-    first = _largest_direction(normals, area)
-    across = np.flatnonzero(np.abs(first @ normals) < _SAME_DIRECTION_RAD)
-    level = np.linalg.svd(first[None])[2][1:]
-    if len(across):
-        seconds = (level @ _largest_direction(normals[:, across], area[across]))[:, None]
-    else:
-        # The face of a sheet does not show its rotation, but one of its edges may.
-        sides = level @ (np.roll(triangles, -1, axis=1) - triangles).reshape(3, -1)
-        longest = sides[:, np.argsort(-np.hypot(*sides), kind="stable")[:_SIDES_TRIED]]
-        seconds = np.column_stack((np.linalg.eigh(level @ spread @ level.T)[1], longest[:, longest.any(axis=0)]))
-    for second in (seconds / np.hypot(*seconds)).T @ level:
-        yield np.stack((first, second, np.cross(first, second)))
-
-
-def _surface_spread(triangles: Floats, area: Floats) -> Floats:
-    """Return the second moments (3, 3) of the surface about its centre, independent of its triangulation.
-
-    integral of x x^T over a triangle = A/12 (a a^T + b b^T + c c^T + s s^T), s = a + b + c.
-    """
-    weight = area / area.sum()
-    centre = (triangles.sum(axis=1) @ weight) / 3
-    a, b, c = np.moveaxis(triangles - centre[:, None, None], 1, 0)
-    spread: Floats = sum((x * weight) @ x.T for x in (a, b, c, a + b + c)) / 12
-    return spread
-
-
-def _largest_direction(normals: Floats, area: Floats) -> Floats:
-    """Return the unit direction that most area faces, from normals (3, m). Opposite directions count as one."""
-    strongest = np.abs(normals).argmax(axis=0)
-    one_way = normals * np.sign(normals[strongest, np.arange(len(area))])
-    cell = np.array([1, 2048, 2048**2]) @ np.round(one_way * 500).astype(np.int64)
-    _, group = np.unique(cell, return_inverse=True)
-    seed = one_way[:, group == np.bincount(group, area).argmax()].mean(axis=1)
-    cosine = (seed / np.linalg.norm(seed)) @ one_way
-    direction: Floats = one_way @ (area * np.sign(cosine) * (np.abs(cosine) > np.cos(_SAME_DIRECTION_RAD)))
-    return direction / np.linalg.norm(direction)
-
-
-def _facing(axes: Floats, axis: int, points: Floats) -> Floats:
-    """Return the axes with `axis` as w, in right-handed order u, v, w, one per row.
-
-    Points (3, n) extend at least as far along u as along v.
-    """
-    u, v, w = np.roll(axes, 2 - axis, axis=0)
-    if np.ptp(v @ points) > np.ptp(u @ points):
-        u, v = v, u
-    return np.stack((np.cross(v, w), v, w))
-
-
-def _pointing(axes: Floats, upwards: Floats) -> Floats:
-    """Return the axes, each signed so that it points up. A level axis points along the author's axes."""
-    strongest = axes[np.arange(3), np.abs(axes).argmax(axis=1)]
-    lift = axes @ upwards
-    sign = np.where(np.abs(lift) > _LIFTED, np.sign(lift), np.sign(strongest))
-    return axes * sign[:, None]
-
-
-def _by_uprightness(axes: Floats, upwards: Floats) -> list[int]:
-    """Return axis numbers, the least upright first. So among equal areas, the most upright axis comes last and wins.
-
-    Axes about as upright as each other keep their order: a tilt of some microradians must not choose another side.
-    """
-    lift = np.abs(axes @ upwards).round(_LIFT_DIGITS)
-    return [int(axis) for axis in np.argsort(lift, kind="stable")]

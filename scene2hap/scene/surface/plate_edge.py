@@ -12,9 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats
-
-Bools = NDArray[np.bool_]
+from scene2hap.common.arrays import Bools, Floats
 
 # Tuned on real scenes, with the labels in tests/data/dominant_surfaces.csv unchanged.
 _NARROW = 0.5  # rows filled by less than this share of the fullest row's rays are no part of the plate ...

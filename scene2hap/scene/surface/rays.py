@@ -16,10 +16,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Floats, Ints
 from scene2hap.scene.geometry import counted_up
-
-Ints = NDArray[np.int64]
 
 # Pairs of triangle and ray that are tested at once. This bounds memory to about 100 MB (assumed).
 _MAX_PAIRS = 1_000_000

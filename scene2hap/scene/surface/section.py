@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Floats, Indices
 from scene2hap.scene.geometry import SAME_PLACE, welded
 from scene2hap.scene.surface.outline import MOST_CORNERS, Outline
 from scene2hap.scene.surface.rays import cut
-
-Ints = NDArray[np.intp]
 
 _TOLERANCE = 1e-3  # of the size: corners whose removal changes the ring by less are left out
 
@@ -40,7 +37,7 @@ def section_outline(triangles_m: Floats, level_m: float) -> Outline | None:
     return Outline((*largest.rings_m, *holes))
 
 
-def _rings(segments: Ints, n_corners: int) -> list[Ints]:
+def _rings(segments: Indices, n_corners: int) -> list[Indices]:
     """Return closed rings of corners from segments (2, n). No ring if any corner is not the end of exactly two
     segments."""
     segments = np.unique(np.sort(segments[:, segments[0] != segments[1]], axis=0), axis=1)

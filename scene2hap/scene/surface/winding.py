@@ -21,14 +21,10 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Bools, Floats, Ints
 from scene2hap.scene.geometry import SAME_PLACE, welded
 from scene2hap.scene.surface.rays import free_space
-
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
 
 _RAYS_PER_SIDE = 32
 

@@ -123,8 +123,8 @@ class Impacts:
     ) -> None:
         self._config, self._state, self._playback = config, state, playback
         self._field, self._user_factor = field, user_factor
-        followed = (state.graph, state.middle_m, state.half_m, state.slam, state.is_closed, config.control_period_s)
-        self._landings = Landings(*followed) if config.impacts else None
+        followed = (state.graph, state.middle_m, state.half_m, state.slam, state.is_closed)
+        self._landings = Landings(*followed, config.control_period_s, state.up_axis) if config.impacts else None
         self._last: dict[frozenset[str | None], _Report] = {}
         self._updated_at = 0
         self._looked_at: object = None

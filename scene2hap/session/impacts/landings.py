@@ -18,14 +18,13 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
-import numpy as np
-
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
 from scene2hap.contact.rule import TOUCH_M
 from scene2hap.scene.geometry import Vector, difference, dot
-from scene2hap.scene.pose import Pose
+from scene2hap.scene.pose import Pose, in_own
 from scene2hap.session.impacts.approaches import NO_JUNCTIONS, Approach, Approaches
+from scene2hap.session.impacts.closing_speed import ClosingSpeed
 from scene2hap.session.impacts.motion_track import (
     LEAST_TRAVEL_M,
     LEFT,
@@ -78,7 +77,7 @@ class Landings:
     Parameters: graph : the contacts, read at each `look`; middle_m : the middle of an object's box, in its own frame
     [m]; half_m : half the sides of this box [m]; slam : what an object on a hinge may slam against; is_closed :
     whether an object is a closed drawer of another; period_s : usual time between updates, where the clock shows
-    none.
+    none; up_axis : number of the vertical axis.
     """
 
     def __init__(
@@ -89,10 +88,12 @@ class Landings:
         slam: Callable[[str, Callable[[str], RelativePoses]], Slam | None],
         is_closed: Callable[[str, str, RelativePoses], bool],
         period_s: float,
+        up_axis: int,
     ) -> None:
         self._graph, self._middle_m, self._half_m = graph, middle_m, half_m
         self._period_s = period_s
         self._motion = RelativeMotion(graph)
+        self._closing = ClosingSpeed(self._motion, period_s, up_axis)
         self._approaches = Approaches(graph, self._motion, slam, is_closed)
         self._near: dict[str, dict[str, Junction]] = {}
         """Contacts of each moving object before the present step, and in all of its updates but the last."""
@@ -264,7 +265,7 @@ class Landings:
                 if not self._stops_suddenly(object_id, other, point, normal, [*steps, (now, time_s)]):
                     continue
                 if one.meets is None or one.meets():
-                    speed = max(self._speed(object_id, other, point, normal, run) for run in runs)
+                    speed = self._closing.speed(object_id, other, point, normal, runs, onward, time_s)
                     best, most_m = Landing(object_id, other, point, speed), closing
         return best
 
@@ -274,30 +275,11 @@ class Landings:
         The point of a contact is half way between the two surfaces. The box around the object reaches at least as far
         as its own.
         """
-        own_normal: list[float] = (np.array(normal) @ self._graph.pose(object_id).rotation).tolist()
+        pose = self._graph.pose(object_id)
+        (x, y, z), (u, v, w) = normal, pose.position_m
+        own_normal = in_own((u + x, v + y, w + z), pose)
         reach_m = sum(abs(part) * half for part, half in zip(own_normal, self._half_m(object_id), strict=True))
         return 2 * (dot(difference(point_m, track.middle_m), normal) - reach_m) <= TOUCH_M
-
-    def _speed(
-        self, object_id: str, other: str, point_m: Vector, normal: Vector, run: Sequence[tuple[int, float]]
-    ) -> float:
-        """Mean speed of an object towards another over a run [m/s], of its middle and of its turns in each step.
-
-        The chord of a fast turn is no measure of its speed: the bottom of a spinning ball was lately its top. The first
-        step of a motion counts only alone, since a part of it was rest, or the motion before.
-        """
-        if len(run) > 2 and run[0][0] == self._motion.tracks[object_id].since:
-            run = run[1:]
-        (first, begin_s), (last, end_s) = run[0], run[-1]
-        n_updates, elapsed_s = last - first, end_s - begin_s
-        stands_still = elapsed_s <= 0 or (n_updates > 1 and run[1][1] == end_s)
-        period_s = self._period_s if stands_still else elapsed_s / n_updates
-        came_m = self._motion.middle_nearing_m(object_id, other, point_m, normal, first, last)
-        turned_m = sum(
-            dot(self._motion.spin_m(object_id, point_m, since, until), normal)
-            for (since, _), (until, _) in pairwise(run)
-        )
-        return (came_m + turned_m) / n_updates / period_s
 
     def _stops_suddenly(
         self, object_id: str, other: str, point_m: Vector, normal: Vector, run: list[tuple[int, float]]

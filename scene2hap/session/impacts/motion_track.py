@@ -131,15 +131,19 @@ class MotionTrack:
         self.n_steps += 1
         self.steps.append((update, time_s, pose))
         if len(self.steps) > 4 * MOST_STEPS:
-            del self.steps[:-MOST_STEPS]
+            del self.steps[: -2 * MOST_STEPS]
 
-    def run(self, n_without: int = 0) -> list[tuple[int, float]]:
+    def run(self, n_without: int = 0, window_s: float = WINDOW_S, most: int = MOST_STEPS) -> list[tuple[int, float]]:
         """Return the numbers and times [s] of the latest steps in one direction, at least two, without the last few."""
         end = len(self.steps) - n_without
-        latest = [(update, time_s) for update, time_s, _ in self.steps[max(0, end - MOST_STEPS) : end]]
+        latest = [(update, time_s) for update, time_s, _ in self.steps[max(0, end - most) : end]]
         end_s = latest[-1][1]
-        kept = [(update, time_s) for update, time_s in latest if update >= self.since and end_s - time_s <= WINDOW_S]
+        kept = [(update, time_s) for update, time_s in latest if update >= self.since and end_s - time_s <= window_s]
         return kept if len(kept) > 1 else latest[-2:]
+
+    def between(self, since: int, until: int) -> list[tuple[int, Pose]]:
+        """Return update and pose of the steps from one to another, both included."""
+        return [(update, pose) for update, _, pose in self.steps if since <= update <= until]
 
     def pose_at(self, update: int) -> Pose:
         """Return the pose after an update, or the first known pose after it."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from scene2hap.contact.graph import ContactGraph
@@ -33,20 +35,37 @@ class RelativeMotion:
         self, object_id: str, other: str, point_m: Vector, normal: Vector, since: int, until: int
     ) -> float:
         """Return the travel of an object's middle along a normal, relative to a point of another object."""
-        track = self.tracks[object_id]
-        begin, end = in_world(track.own_m, track.pose_at(since)), in_world(track.own_m, track.pose_at(until))
-        return dot(difference(difference(end, begin), self._travel_m(other, point_m, since, until)), normal)
+        return self.middle_path_m(object_id, other, point_m, normal, since, until)[until]
 
-    def spin_m(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
-        """Return the product of the sine of an object's turn and the arm from its middle to a point."""
+    def middle_path_m(
+        self, object_id: str, other: str, point_m: Vector, normal: Vector, since: int, until: int
+    ) -> dict[int, float]:
+        """Return this travel from one step to each of those until another one, by update."""
+        track, is_moving = self.tracks[object_id], other in self.tracks
+        path: dict[int, float] = {}
+        begin = 0.0
+        for update, pose in track.between(since, until):
+            along = dot(in_world(track.own_m, pose), normal)
+            if not path:
+                begin = along
+            if is_moving:
+                along -= dot(self._travel_m(other, point_m, since, update), normal)
+            path[update] = along - begin
+        return path
+
+    def turned_m(self, object_id: str, point_m: Vector, normal: Vector, since: int, until: int) -> float:
+        """Return the sum over the steps of an object of its turn's sine times the arm from its middle to a point, along
+        a normal."""
         track = self.tracks[object_id]
-        begin, end = track.pose_at(since), track.pose_at(until)
-        if begin.rotation_xyzw == end.rotation_xyzw:
-            return STILL
-        turn = end.rotation @ begin.rotation.T
-        arm_m = np.subtract(point_m, in_world(track.own_m, self._graph.pose(object_id)))
-        x, y, z = ((turn - turn.T) / 2 @ arm_m).tolist()
-        return x, y, z
+        turned_m, arm_m = 0.0, None
+        for (_, begin), (_, end) in pairwise(track.between(since, until)):
+            if begin.rotation_xyzw == end.rotation_xyzw:
+                continue
+            if arm_m is None:
+                arm_m = np.subtract(point_m, in_world(track.own_m, self._graph.pose(object_id)))
+            turn = end.rotation @ begin.rotation.T
+            turned_m += dot(((turn - turn.T) / 2 @ arm_m).tolist(), normal)
+        return turned_m
 
     def poses(self, object_id: str, other: str) -> RelativePoses:
         """Return the poses of both at the start of the object's motion, before its last step and after it."""

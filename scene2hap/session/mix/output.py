@@ -49,10 +49,11 @@ class Output:
         self.sink: ActuatorSink | None = built
         self._config = config
         self._safety: SafetyLayer | None = None
+        self._latest: SafetyLayer | None = None
         self._limits: NDArray[np.float64] | None = None
         self._show: Callable[[HapticFrame], None] | None = getattr(built, "show", None)
         self._shown: HapticFrame | None = None
-        self._event: SinkEvent | None = None
+        self._events: dict[str, SinkEvent] = {}  # the last one of each sink
         if getattr(built, "on_event", self) is None:
             built.on_event = self._note  # type: ignore[union-attr]  # looked up by name, see ActuatorSink
         self.is_unused: bool = built is not None
@@ -74,29 +75,39 @@ class Output:
 
     @property
     def safety_stats(self) -> SafetyStats:
-        """Counters of samples that the safety layer of a started sink changed."""
-        return self._safety.stats if self._safety is not None else SafetyStats()
+        """Counters of samples that the safety layer changed since the last start; they stay after a stop."""
+        return self._latest.stats if self._latest is not None else SafetyStats()
 
     @property
     def problem(self) -> str | None:
-        """Why a started sink plays nothing, None if it plays or if the game gets its events itself."""
-        event = self._event if self._safety is not None else None
-        return event.message if event is not None and event.kind in _PROBLEMS else None
+        """Why a started sink, or one of several, plays nothing. None if all play or the game gets their events."""
+        if self._safety is None or not self._events:
+            return None
+        events = list(self._events.values())  # the threads of the sinks add more
+        return next((event.message for event in events if event.kind in _PROBLEMS), None)
+
+    @property
+    def is_late(self) -> bool:
+        """Whether the watchdog silences a started sink."""
+        safety = self._safety
+        return safety is not None and safety.is_late
 
     def _note(self, event: SinkEvent) -> None:
-        self._event = event
+        self._events[event.sink] = event
 
     def feed(self, frame: HapticFrame) -> None:
         """Reset the watchdog, and pass the gains to the sink."""
-        if self._safety is not None:
-            self._safety.feed()
+        safety = self._safety  # another thread may stop meanwhile
+        if safety is not None:
+            safety.feed()
             self.show(frame)
 
     def hold(self, limits: NDArray[np.float64]) -> None:
         """Hold each channel within a limit (n_hands,) [-], in addition to the actuator's limit."""
         self._limits = limits
-        if self._safety is not None:
-            self._safety.hold(limits)
+        safety = self._safety
+        if safety is not None:
+            safety.hold(limits)
 
     def show(self, frame: HapticFrame) -> None:
         """Pass a frame to the sink if it is started and accepts gains."""
@@ -132,6 +143,7 @@ class Output:
             on_trip=self._show_silence,
         )
         claim_sink(self.sink, self)
+        self._events.clear()
         try:
             self.sink.open(SinkFormat(rate, tuple(hands)))
             self.sink.start(safety.guard(fill))
@@ -139,7 +151,8 @@ class Output:
             with contextlib.suppress(Exception):  # the first error says what is wrong
                 self._release(self.sink, _discard(self.sink))
             raise
-        self._safety, self.is_unused = safety, False
+        self._safety = self._latest = safety
+        self.is_unused = False
         if has_clock(self.sink) or hasattr(self.sink, "abort"):
             # A program may end without `stop`: by an error, by Ctrl-C, or at the end of its code. Called before the
             # sink's own end, which neither fades nor completes a file.

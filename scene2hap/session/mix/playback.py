@@ -9,7 +9,6 @@ audio thread reads an immutable plan, which the game's thread replaces. Neither 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, wait
 from dataclasses import dataclass
@@ -19,83 +18,24 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Indices
 from scene2hap.devices.protocol import Block
 from scene2hap.render.bursts import Bursts, Fade, PlannedBurst
 from scene2hap.render.limiter import soft_limit
 from scene2hap.render.loop_bank import Slot, SlotBank, position_s
-from scene2hap.render.mixer import Mixer
 from scene2hap.render.transition import Running, Transition, TransitionCurve
 from scene2hap.session.config import MIN_RAMP_S, SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.mix.hand_limits import HandLimits
+from scene2hap.session.mix.mixing_plan import MixerInstance, MixingPlan, PlannedMixer
 from scene2hap.session.mix.prepared_loops import PreparedLoop, find, order, prepare
 from scene2hap.session.mix.sources import LoopRow
 
 SPARE_SLOTS = 16
 """Least number of empty slots in a new bank; with more loops than this, one empty slot per loop."""
 
-Indices = NDArray[np.intp]
 
 _MOST_ROUTES = 64
-
-
-class MixerInstance:
-    """A mixer for some hands and a bank.
-
-    Parameters: hands : a token for each output; position : the frame of the session's clock from which it may begin.
-    """
-
-    def __init__(self, config: SessionConfig, bank: SlotBank, hands: tuple[int, ...], position: int) -> None:
-        rate = config.sample_rate_hz
-        # It begins at a whole number of tactile samples, so that its loops are in phase with those of other mixers,
-        # and not after `position`, or its hands and loops would be felt late: up to 10 ms at 44.1 kHz.
-        unit = rate // math.gcd(rate, bank.sample_rate_hz)
-        self._begin = position // unit * unit
-        self.bank: SlotBank = bank.shifted(self._begin * bank.sample_rate_hz // rate)
-        self.hands = hands
-        self.mixer: Mixer = Mixer(
-            self.bank,
-            len(hands),
-            sample_rate_hz=rate,
-            ramp_s=max(config.control_period_s, MIN_RAMP_S),
-            skip_silent=config.skip.silent_bands,
-        )
-        self.mixer.render(position - self._begin)
-        self._nothing = np.zeros((len(hands), 0, config.bands.n_bands), dtype=np.float32)
-        # The target gains, their slots, and the request for them: an equal request is skipped.
-        self._gains, self._slots = self._nothing, list[int]()
-        self._last_request: tuple[bytes, list[int], list[int]] | None = None
-
-    def move_to(self, gains: NDArray[np.float32], slots: list[int], hands: list[int], at_frame: int) -> None:
-        """Ramp to gains (n_hands, n_slots, n_bands) of some slots for some of its hands, and to 0 for the rest."""
-        request = (gains.tobytes(), slots, hands)
-        if request == self._last_request:
-            return
-        if len(hands) < len(self.hands):
-            some, gains = gains, np.zeros((len(self.hands), *gains.shape[1:]), dtype=np.float32)
-            gains[hands] = some
-        self._send(gains, slots, at_frame)
-        self._last_request = request
-
-    def fade(self, faded: int, at_frame: int) -> None:
-        """Ramp to 0 for one slot only."""
-        kept = [i for i, slot in enumerate(self._slots) if slot != faded]
-        self._send(self._gains[:, kept], [self._slots[i] for i in kept], at_frame)
-
-    def silence(self, at_frame: int) -> None:
-        """Ramp to 0."""
-        self._send(self._nothing, [], at_frame)
-
-    def render(self, position: int, n_frames: int) -> Block:
-        """Samples (n_frames, n_hands) from frame `position` of the session's clock on; it must not decrease."""
-        behind = position - self._begin - self.mixer.position
-        if behind > 0:
-            self.mixer.render(behind)
-        return self.mixer.render(n_frames)
-
-    def _send(self, gains: NDArray[np.float32], slots: list[int], at_frame: int) -> None:
-        self.mixer.set_gains(gains, slots, at_frame - self._begin)
-        self._gains, self._slots, self._last_request = gains, slots, None
 
 
 class _Route(NamedTuple):
@@ -110,27 +50,6 @@ class _Route(NamedTuple):
     slots: list[int]
     outputs: list[int]
     channels: Indices | None
-
-
-class _PlannedMixer(NamedTuple):
-    """A mixer, those of its outputs that belong to a present hand, and the channels of these hands."""
-
-    mixer: MixerInstance
-    outputs: Indices
-    channels: Indices
-
-
-@dataclass(frozen=True, eq=False)
-class _Plan:
-    """The present outputs, a token for each, and the mixers that play them."""
-
-    hands: tuple[int, ...]
-    mixers: tuple[_PlannedMixer, ...]
-
-    @property
-    def n_channels(self) -> int:
-        """Number of outputs."""
-        return len(self.hands)
 
 
 @dataclass(eq=False)
@@ -275,7 +194,7 @@ class Playback:
             routes = self._routes[key] = [self._route(rows, planned) for planned in self._plan.mixers]
         return routes
 
-    def _route(self, rows: Sequence[LoopRow], planned: _PlannedMixer) -> _Route:
+    def _route(self, rows: Sequence[LoopRow], planned: PlannedMixer) -> _Route:
         # Rows whose loops are still being prepared have no place, or that of the row that they replace.
         places = [(i, self._places[row]) for i, row in enumerate(rows) if row in self._places]
         # Mixers of one bank share its slots.
@@ -407,7 +326,7 @@ class Playback:
         mix = self._rendered(plan, n_frames)
         return mix if limits is None else limits.pass_through(mix, plan.hands)
 
-    def _rendered(self, plan: _Plan, n_frames: int) -> Block:
+    def _rendered(self, plan: MixingPlan, n_frames: int) -> Block:
         paused_from = self._paused_from
         if paused_from is None:
             self._frozen_at = None
@@ -418,29 +337,17 @@ class Playback:
         silence = np.zeros((n_frames - n_left, plan.n_channels), dtype=np.float32)
         return np.concatenate([self._render(plan, n_left), silence])
 
-    def _render(self, plan: _Plan, n_frames: int) -> Block:
-        mixer, outputs, _ = plan.mixers[0]
-        if len(plan.mixers) == 1 and len(outputs) == len(mixer.hands):
-            mix = mixer.render(self._position, n_frames)
-        else:
-            total = np.zeros((n_frames, plan.n_channels), dtype=np.float32)
-            for mixer, outputs, channels in plan.mixers:
-                total[:, channels] += mixer.render(self._position, n_frames)[:, outputs]
-            mix = soft_limit(total)
+    def _render(self, plan: MixingPlan, n_frames: int) -> Block:
+        mix = plan.render(self._position, n_frames)
         if not self._bursts.are_silent:
             self._bursts.add_to(mix, self._position, plan.hands)
             mix = soft_limit(mix)
         self._position += n_frames
         return mix
 
-    def _new_plan(self) -> _Plan:
+    def _new_plan(self) -> MixingPlan:
         self._routes.clear()
-        mixers, hands = [], tuple(self._hands.values())
-        for mixer in self._mixers:
-            present = [(i, hands.index(hand)) for i, hand in enumerate(mixer.hands) if hand in hands]
-            outputs, channels = np.array(present, dtype=np.intp).reshape(-1, 2).T
-            mixers.append(_PlannedMixer(mixer, outputs, channels))
-        return _Plan(hands, tuple(mixers))
+        return MixingPlan.of(self._mixers, tuple(self._hands.values()))
 
     def _new_bank(self, n_rows: int) -> SlotBank:
         n_slots = n_rows + max(SPARE_SLOTS, n_rows)

@@ -9,7 +9,8 @@ import pytest
 
 from scene2hap import load_scene
 from scene2hap.cli import main
-from scene2hap.common.printable import aligned, printable, printable_json, quoted, writable
+from scene2hap.common.json_texts import printable_json
+from scene2hap.common.printable import aligned, printable, quoted, writable
 from scene2hap.errors import SceneError
 
 TITLE = "\x1b]0;owned\x07\x1b[2J"

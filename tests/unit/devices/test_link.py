@@ -293,3 +293,18 @@ def test_a_line_that_fades_by_itself_gets_the_mix_as_it_is(bench: Bench) -> None
         bench.line.wants = True
 
     assert played_around_a_pause(bench, pause, resume) == (1.0, 1.0)
+
+
+def test_underruns_are_counted_from_open(bench: Bench) -> None:
+    """A line lives as long as its sink: a trial must not report the gaps of the trials before it."""
+    bench.line.underruns = 3
+    bench.start()
+    bench.line.underruns += 2
+    assert bench.sink.stats.underruns == 2
+
+
+def test_events_name_their_sink(bench: Bench) -> None:
+    """A TeeSink passes on the events of all its sinks."""
+    bench.start()
+    assert eventually(lambda: bench.events)
+    assert bench.events[0].sink == "test device"

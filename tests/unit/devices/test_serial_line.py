@@ -69,3 +69,20 @@ def test_no_more_is_on_its_way_than_the_buffer_and_nothing_is_lost(
     cable.now_s += buffer_s + 0.005  # a pause of the host, too short for the device's watchdog
     play(101.1)
     assert cable.device.underruns >= line.underruns >= 1
+
+
+def test_underruns_of_an_amplifier_that_restarted_are_added(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The amplifier counts from HELLO on."""
+    cable = Cable(monkeypatch)
+    line = SerialLine("cable", BAUD_RATE, None, 0.02, 16)
+    counts = []
+    for _ in range(2):
+        line.connect(SinkFormat(RATE, ("left", "right")), lambda: True)
+        for until_s in (cable.now_s + 0.2, cable.now_s + 0.4):
+            while cable.now_s < until_s:
+                if n := line.wanted(0.001):
+                    line.send(np.ones((n, 2), dtype=np.float32))
+            cable.now_s += 0.025  # a pause of the host, too short for the device's watchdog
+        counts.append(cable.device.underruns)
+    assert min(counts) >= 1
+    assert line.underruns == sum(counts)

@@ -45,6 +45,17 @@ def test_every_hand_needs_a_channel() -> None:
             SoundCardSink(channels=channels).open(FORMAT)
 
 
+@pytest.mark.parametrize("n_channels", [0, 1, 2.5, "8", True, 300])
+def test_invalid_numbers_of_channels_are_refused(n_channels: object) -> None:
+    with pytest.raises(ConfigError, match="n_channels"):
+        SoundCardSink(n_channels=n_channels)
+
+
+def test_a_hand_beyond_the_opened_channels_is_refused() -> None:
+    with pytest.raises(ConfigError, match="n_channels is 4, and a hand is on channel 5"):
+        SoundCardSink(channels=[1, 5], n_channels=4).open(FORMAT)
+
+
 @pytest.mark.parametrize("latency", ["medium", 0.0, -1.0, 2.0, float("nan"), None])
 def test_invalid_latencies_are_refused(latency: object) -> None:
     with pytest.raises(ConfigError, match="latency"):
@@ -167,3 +178,5 @@ def test_a_hand_beyond_the_cards_channels_is_refused(monkeypatch: pytest.MonkeyP
     driver.use(monkeypatch)
     with pytest.raises(DeviceError, match="has 2 channels; a hand is on 4"):
         SoundCardSink(channels={"left": 1, "right": 4})._card_line.connect(FORMAT, lambda: True)
+    with pytest.raises(DeviceError, match="has 2 channels; n_channels is 8"):
+        SoundCardSink(n_channels=8)._card_line.connect(FORMAT, lambda: True)

@@ -266,3 +266,24 @@ def test_all_devices_stop_if_one_raises(call: str) -> None:
     with pytest.raises(DeviceError, match="unplugged"):
         getattr(tee, call)()
     assert sound.fill is None
+
+
+def test_a_sink_that_changes_its_blocks_does_not_change_those_of_the_others() -> None:
+    """As a sink that scales to its amplifier: the others would play samples beyond the limits of the safety layer."""
+    scaling, device, memory = Device(), Device(), MemorySink()
+
+    class ScalingRecorder(MemorySink):
+        def pull(self, n_frames: int) -> NDArray[np.float32]:
+            block = super().pull(n_frames)
+            block *= 3.0
+            return block
+
+    tee = TeeSink([ScalingRecorder(), memory, scaling, device])
+    tee.open(FORMAT)
+    tee.start(Counting())
+    assert scaling.fill is not None
+    for _ in range(3):
+        block = scaling.fill(4)
+        block *= 3.0
+    np.testing.assert_array_equal(device.take(12), np.arange(12))
+    np.testing.assert_array_equal(memory.samples[:, 0], np.arange(12))

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 
 from scene2hap import MemorySink, WavSink
 from scene2hap.devices.protocol import SinkFormat
-from scene2hap.errors import DeviceError
+from scene2hap.errors import ConfigError, DeviceError
 
 FORMAT = SinkFormat(8000, ("left", "right"))
 
@@ -44,6 +45,28 @@ def test_memory_keeps_all_blocks() -> None:
     sink.open(FORMAT)
     assert sink.samples.shape == (0, 2)
     assert sink.stats.frames == 0
+
+
+def test_a_wav_file_is_not_written_beyond_the_length_that_its_header_holds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Readers take the length of the header, modulo 2^32, and lose the end."""
+    monkeypatch.setattr("scene2hap.devices.wav.LARGEST_WAV_BYTES", 6 * 100)  # 100 frames of two channels of 24 bits
+    sink = WavSink(tmp_path / "long.wav")
+    sink.open(FORMAT)
+    sink.start(Ramp())
+    sink.pull(100)
+    with pytest.raises(DeviceError, match=r"after 100 frames: a WAV file holds 4 GiB.*end in \.rf64"):
+        sink.pull(1)
+    sink.close()
+    assert len(soundfile.read(sink.path)[0]) == 100
+    longer = WavSink(tmp_path / "long.rf64")
+    longer.open(FORMAT)
+    longer.start(Ramp())
+    longer.pull(101)
+    longer.close()
+    assert soundfile.info(longer.path).format == "RF64"
+    np.testing.assert_allclose(soundfile.read(longer.path)[0], Ramp()(101), atol=2**-23)
 
 
 def test_wav_file_has_the_pulled_samples_with_24_bits(tmp_path: Path) -> None:
@@ -151,3 +174,18 @@ sink.close()
     sink.close()
     np.testing.assert_array_equal(soundfile.read(path)[0], np.full(2000, 0.5))
     assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize(
+    ("rate_hz", "channels", "says"),
+    [
+        (48_000, (), r"channels is \[\]; it must be at least one name"),
+        (48_000, "left", r"as \['left'\]"),
+        (0, ("left",), "sample_rate_hz is 0 Hz; it must be at least 1"),
+        (44_100.5, ("left",), "sample_rate_hz is 44100.5; it must be a whole number"),
+    ],
+)
+def test_a_format_without_channels_or_rate_is_refused(rate_hz: Any, channels: Any, says: str) -> None:
+    """Each sink failed on it with another message, such as that the folder of a WAV file cannot be written."""
+    with pytest.raises(ConfigError, match=says):
+        SinkFormat(rate_hz, channels)

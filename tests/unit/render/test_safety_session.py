@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 from scene2hap import ActuatorProfile, HapticSession, MemorySink, SessionConfig, Touch
 from scene2hap.devices.protocol import Fill, SinkFormat, SinkStats
 from scene2hap.errors import ConfigError
-from scene2hap.render.safety import FADE_OUT_S, SafetyLayer
+from scene2hap.render.safety import FADE_OUT_S, SafetyLayer, SafetyStats
+from scene2hap.session.frame import HapticFrame
+from scene2hap.session.mix.output import Output
 from scenes import RATE, table_with_two_phones
 
 CONFIG = {"sample_rate_hz": RATE}
@@ -97,6 +99,23 @@ def test_a_sink_with_a_clock_falls_silent_without_updates(monkeypatch: pytest.Mo
     assert sink.fill is None
 
 
+def test_explain_says_that_the_watchdog_has_expired(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As in a program that updates once and then waits for an answer: it vibrates for a moment."""
+    now = 100.0
+    assert SafetyLayer.__init__.__kwdefaults__ is not None
+    monkeypatch.setitem(SafetyLayer.__init__.__kwdefaults__, "clock", lambda: now)
+    session = HapticSession(*table_with_two_phones(), {**CONFIG, "watchdog_s": 0.05}, sink=ClockedSink())
+    session.start()
+    session.update(touches=TOUCHES)
+    now += 0.049
+    assert session.explain("left").reasons == ()
+    now += 0.002
+    assert "no update came for 0.05 s" in session.explain("left").text
+    session.update(touches=TOUCHES)
+    assert session.explain("left").reasons == ()
+    session.stop()
+
+
 def test_a_sink_without_a_clock_needs_no_updates() -> None:
     sink = MemorySink()
     with HapticSession(*table_with_two_phones(), {**CONFIG, "watchdog_s": 0.02}, sink=sink) as session:
@@ -124,3 +143,29 @@ def test_invalid_actuators_are_refused() -> None:
     with pytest.raises(ConfigError, match="actuator"):
         SessionConfig.parse({"actuator": "no such actuator"})
     assert SessionConfig.parse({"actuator": "lra"}).actuator.max_frequency_hz == 230.0
+
+
+def test_counters_of_the_safety_layer_stay_after_stop() -> None:
+    """A trial reads them at its end; zeros would mean that no guard had to act."""
+    sink = MemorySink()
+    config = {**CONFIG, "actuator": {"max_amplitude": 0.1, "max_rms": 0.1}}
+    with HapticSession(*table_with_two_phones(), config, sink=sink) as session:
+        assert session.safety_stats == SafetyStats()
+        session.update(touches=TOUCHES)
+        sink.pull(8000)
+        playing = session.safety_stats
+    assert session.safety_stats.peak_limited >= playing.peak_limited > 0
+    session.start()
+    assert session.safety_stats == SafetyStats()
+
+
+def test_another_thread_may_stop_a_session_within_an_update(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As a pedal that stops everything, or the handler of a signal."""
+    output = Output(ClockedSink(), SessionConfig(**CONFIG))
+    output.start(lambda n_frames: np.zeros((n_frames, 1), dtype=np.float32), ("left",))
+    before_stop = [output._safety]
+    with monkeypatch.context() as patch:  # it is there when read once, and gone when read again
+        gone = property(lambda self: before_stop.pop() if before_stop else None)
+        patch.setattr(Output, "_safety", gone, raising=False)
+        output.feed(HapticFrame(np.zeros((1, 0, 1), dtype=np.float32), ("left",), ()))
+    output.stop()

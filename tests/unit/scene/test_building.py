@@ -442,7 +442,7 @@ def test_check_does_not_depend_on_batch_size(monkeypatch: pytest.MonkeyPatch) ->
     whole = scene.check()
     assert whole
     for n in (1, 7, 64):
-        monkeypatch.setattr("scene2hap.scene.plausibility.check._BATCH", n)
+        monkeypatch.setattr("scene2hap.scene.plausibility.resting._BATCH", n)
         assert scene.check() == whole
 
 
@@ -456,7 +456,7 @@ def test_check_compares_each_object_with_those_near_it_alone(monkeypatch: pytest
         n_compared += found.size
         return found
 
-    monkeypatch.setattr("scene2hap.scene.plausibility.check.distances", counted)
+    monkeypatch.setattr("scene2hap.scene.plausibility.resting.distances", counted)
     n = 2000
     crates = [
         SceneObject(f"crate_{i}", "Crate", pose=Pose((2.0 * i, 0.2, 0.0)), geometry=Box((0.4, 0.4, 0.4)))

@@ -74,6 +74,45 @@ def test_touches_follow_moves_additions_and_removals() -> None:
     assert touched(s.touches_at(tip)) == {"lamp"}
 
 
+@pytest.mark.parametrize("limit_m", [0.01, -0.03])
+def test_a_finger_that_trembles_at_the_limit_touches_without_a_break(limit_m: float) -> None:
+    """Noise of 1 mm, as of a tracker. In a block of 20 cm, whose other faces are farther away."""
+    s, noise = session(box("block", (0.4, 0.2, 0.4), (0.0, 2.0, 0.0))), np.random.default_rng(1)
+    touching = []
+    for distance_m in limit_m + noise.normal(0.0, 1e-3, 300):
+        found = s.touches_at({"left": (0.0, 2.1 + distance_m, 0.0)})
+        s.update(touches=found)
+        touching.append(bool(found))
+    assert touching == sorted(touching)  # none, then always
+    assert touching.index(True) < 10
+
+
+def test_a_touch_ends_at_one_and_a_half_times_the_distance_at_which_it_begins() -> None:
+    s = session()
+
+    def touches_at(height_m: float, hand: str = "left") -> bool:
+        return bool(s.touches_at({hand: (-0.2, TOP_M + height_m, 0.1)}, within_m=0.02))
+
+    assert not touches_at(0.021)
+    s.update(touches=[Touch("left", "table", (-0.2, TOP_M, 0.1))])
+    assert touches_at(0.021)
+    assert touches_at(0.0299)
+    assert touches_at(0.0299)  # as often as it is called
+    assert not touches_at(0.0301)
+    assert not touches_at(0.021, "right")
+    over_phone = {"left": (0.2, TOP_M + 0.008 + 0.021, 0.0)}
+    assert touched(s.touches_at(over_phone, within_m=0.02)) == {"table"}
+    s.update()
+    assert not touches_at(0.021)
+
+
+def test_a_touched_object_that_is_removed_is_not_touched() -> None:
+    s, tip = session(), {"left": (0.2, TOP_M + 0.012, 0.0)}
+    s.update(touches=s.touches_at(tip))
+    s.remove("phone")
+    assert not s.touches_at(tip)
+
+
 def test_a_rotated_object_is_touched_where_it_is() -> None:
     s = session()
     turned = Pose((0.0, 2.0, 0.0), (0.0, 0.0, math.sin(math.pi / 4), math.cos(math.pi / 4)))  # the table on its edge

@@ -22,6 +22,7 @@ from scene2hap import (
     NoPropagation,
     Pose,
     SceneWarning,
+    TeeSink,
     Touch,
     WavSink,
     materials,
@@ -284,7 +285,7 @@ class Deviceless(MemorySink):
     def start(self, fill: Fill) -> None:
         super().start(fill)
         if self.on_event is not None:
-            self.on_event(SinkEvent("unavailable", "no card. Plug one in.", 0.0))
+            self.on_event(SinkEvent("unavailable", "no card. Plug one in.", 0.0, "card"))
 
 
 def test_a_sink_without_its_device_is_named_once() -> None:
@@ -293,6 +294,21 @@ def test_a_sink_without_its_device_is_named_once() -> None:
             s.update(touches=[ON_TABLE])
         s.update(touches=[ON_TABLE])
         assert "no card" in s.explain("left").text
+
+
+def test_a_missing_device_is_named_although_another_one_plays() -> None:
+    card, amplifier = Deviceless(), MemorySink()
+    amplifier.on_event = None  # type: ignore[attr-defined]  # looked up by name
+    tee = TeeSink([card, amplifier])
+    with HapticSession(*table_with_two_phones(), CONFIG, sink=tee) as s:
+        assert tee.on_event is not None
+        tee.on_event(SinkEvent("unavailable", "no card.", 0.0, "card"))
+        tee.on_event(SinkEvent("connected", "the amplifier plays.", 0.1, "amplifier"))
+        with pytest.warns(SceneWarning, match="no card"):
+            s.update(touches=[ON_TABLE])
+        assert "no card" in s.explain("left").text
+        tee.on_event(SinkEvent("connected", "the card plays.", 0.2, "card"))
+        assert "no card" not in s.explain("left").text
 
 
 def test_a_game_that_listens_to_its_sink_gets_no_warning() -> None:

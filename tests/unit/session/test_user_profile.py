@@ -55,6 +55,29 @@ def test_profile_curve_is_read_at_the_felt_frequency(bundle: HapticBundle) -> No
     assert ours[:, 0] == pytest.approx(plain[:, 0] * db(-6.0), rel=1e-5)
 
 
+def test_curves_of_person_hand_and_device_add_up(bundle: HapticBundle) -> None:
+    """Each actuator of a rig has a response of its own, which its hand's curve compensates."""
+    source = next(iter(bundle.loops))
+    felt_hz = next(iter(bundle.loops[source].values())).frequency_tactile_hz
+    around = [(felt_hz / 2, -8.0), (felt_hz * 2, 0.0)]  # half way on a logarithmic axis: -4 dB
+    user = {
+        "curve_db": [(felt_hz, 1.0)],
+        "hands": {"left": {"gain_db": -3.0, "curve_db": around}},
+        "devices": {"mine": {"curve_db": [(20.0, -2.0)]}},
+    }
+    config = {"actuator": ActuatorProfile("mine")}
+    plain, ours = gains(bundle, None, config), gains(bundle, user, config)
+    assert ours[0, 0] == pytest.approx(plain[0, 0] * db(-4.0 - 3.0 + 1.0 - 2.0), rel=1e-5)
+    assert ours[1, 0] == pytest.approx(plain[1, 0] * db(1.0 - 2.0), rel=1e-5)
+
+
+def test_a_profile_of_one_hands_curve_alone_is_applied(bundle: HapticBundle) -> None:
+    user = {"hands": {"right": {"curve_db": [(100.0, -6.0)]}}}
+    plain, ours = gains(bundle, None), gains(bundle, user)
+    np.testing.assert_array_equal(ours[0], plain[0])
+    assert ours[1] == pytest.approx(plain[1] * db(-6.0), rel=1e-5)
+
+
 def test_the_curve_acts_band_by_band(bundle: HapticBundle) -> None:
     config = {"bands": [50.0, 200.0, 800.0]}
     source = next(iter(bundle.loops))
@@ -157,6 +180,7 @@ def test_profile_round_trips_through_a_file(tmp_path: Path) -> None:
         ({"curve_db": [(100, float("nan"))]}, "dB"),
         ({"hand": {}}, "hands"),
         ({"hands": {"left": {"gain": 3}}}, "gain"),
+        ({"hands": {"left": {"curve_db": [(100, 0), (60, 0)]}}}, "rise"),
         (3, "mapping"),
     ],
 )
@@ -187,7 +211,7 @@ def test_added_hands_get_their_profile_levels(bundle: HapticBundle) -> None:
 def test_code_of_the_profile_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, bundle: HapticBundle) -> None:
     monkeypatch.chdir(tmp_path)
     bundle.save(tmp_path / "scene2hap-demo" / "bundle")
-    (code,) = re.findall(r"```python\n(.*?)```", DOCS.read_text(encoding="utf-8"), re.DOTALL)
+    code = "".join(re.findall(r"```python\n(.*?)```", DOCS.read_text(encoding="utf-8"), re.DOTALL))
     exec(compile(code, str(DOCS), "exec"), {})
     assert json.loads((tmp_path / "ada.json").read_text(encoding="utf-8"))["user"]["gain_db"] == -3.0
 

@@ -15,16 +15,13 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from pxr import UsdGeom
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Floats, Ints
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits, solids
 from scene2hap.scene.formats.polygons import triangulated
 from scene2hap.scene.formats.usd.values import integers, positive, value, vectors
-
-Ints = NDArray[np.int64]
 
 # Order of the coordinates of a shape about z, for each axis that the shape may have.
 _TURNED = {"X": [2, 0, 1], "Y": [1, 2, 0], "Z": [0, 1, 2]}

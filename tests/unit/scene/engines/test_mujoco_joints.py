@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from scene2hap import ContactGraph, HapticSession, MuJoCoLink, Touch, bake
-from scene2hap.scene.engines import mujoco as engine
+from scene2hap.scene.engines import mujoco as engine, mujoco_contacts
 
 mujoco: Any = pytest.importorskip("mujoco", reason="install the extra mujoco")
 
@@ -150,7 +150,7 @@ def test_links_touch_at_their_pivots_also_with_the_contacts_of_the_engine() -> N
     again_data.qpos[:] = data.qpos
     mujoco.mj_forward(again, again_data)
     poses = dict(engine.poses(again, again_data).items())
-    graph.update(poses, contacts=engine.contacts(again, again_data))
+    graph.update(poses, contacts=mujoco_contacts.contacts(again, again_data))
     points = {(one.a, one.b): one.point_m for one in graph.contacts}
     assert points.keys() == {("forearm", "post"), ("forearm", "hand"), ("badge", "hand")}
     assert points["forearm", "post"] == pytest.approx((1.0, 0.035, 1.0), abs=1e-9)

@@ -50,7 +50,7 @@ def _not_closed(object_id: str, other: str, way: RelativePoses) -> bool:
 
 
 def followed(graph: ContactGraph, period_s: float, middle_m: Callable[[str], Triple] = _middle) -> Landings:
-    return Landings(graph, middle_m, _half, _without_hinge, _not_closed, period_s)
+    return Landings(graph, middle_m, _half, _without_hinge, _not_closed, period_s, 1)
 
 
 def landings_of(path: Path, *, moved: str = "cup", period_s: float = PERIOD_S, clock: bool = True) -> list[Landing]:
@@ -104,9 +104,55 @@ def fall(height_m: float, period_s: float, onto_m: float = RESTS_M) -> Path:
 def test_dropped_object_lands_once(height_m: float, period_s: float) -> None:
     found = landings_of(fall(height_m, period_s), period_s=period_s)
     assert [(one.object_id, one.onto) for one in found] == [("cup", "table")]
-    fell_at = math.sqrt(2 * 9.81 * height_m)
-    assert 0.59 * fell_at <= found[0].speed_m_s <= fell_at
+    assert found[0].speed_m_s == pytest.approx(math.sqrt(2 * 9.81 * height_m), rel=1e-6)
     assert found[0].point_m[1] == pytest.approx(0.7, abs=1e-3)
+
+
+def speeds_of(height_m: Callable[[float], float], lasts_s: float, frames_hz: int, noise_m: float) -> list[float]:
+    """The speeds of landings of the cup in frames of unequal length, begun at ten times, after 0.2 s at rest."""
+    found = []
+    for seed in range(10):
+        rng = np.random.default_rng(seed)
+        times = np.cumsum(rng.uniform(0.7, 1.3, round((lasts_s + 0.3) * frames_hz)) / frames_hz)
+        at = rng.normal(0.0, noise_m, (len(times), 3))
+        at[:, 1] += [RESTS_M + height_m(t - 0.2) for t in times.tolist()]
+        frames = [(t, {"cup": Pose(tuple(here))}) for t, here in zip(times.tolist(), at.tolist(), strict=True)]
+        found += [one.speed_m_s for one in landings_in(room(), frames)[:1]]
+    return found
+
+
+@pytest.mark.parametrize(("frames_hz", "height_m"), [(30, 0.1), (60, 0.03), (90, 0.02), (90, 0.03), (120, 0.02)])
+@pytest.mark.parametrize(("noise_m", "bias", "scatter"), [(0.0, 0.03, 0.05), (3e-4, 0.06, 0.1)])
+def test_speed_of_a_short_fall_is_that_at_its_end(
+    frames_hz: int, height_m: float, noise_m: float, bias: float, scatter: float
+) -> None:
+    """Its mean speed is half of that."""
+    fell_at = math.sqrt(2 * 9.81 * height_m)
+    speeds = speeds_of(lambda t: height_m - 9.81 / 2 * min(max(t, 0.0), fell_at / 9.81) ** 2, 0.3, frames_hz, noise_m)
+    assert len(speeds) >= 8
+    assert np.mean(speeds) == pytest.approx(fell_at, rel=bias)
+    assert np.std(speeds) < scatter * fell_at
+
+
+@pytest.mark.parametrize("frames_hz", [60, 90, 120])
+@pytest.mark.parametrize("noise_m", [0.0, 3e-4])
+@pytest.mark.parametrize(("share", "most"), [(0.5, 1.05), (0.75, 1.3)])
+def test_hand_that_slows_down_before_it_meets_the_table_is_not_taken_for_a_fall(
+    frames_hz: int, noise_m: float, share: float, most: float
+) -> None:
+    """A stroke of 25 cm in 0.4 s, least jerk, ends at a share of its way. A fall would gain 0.5 m/s in 50 ms."""
+    stroke_m, stroke_s = 0.25, 0.4
+    shares = np.linspace(0.0, 1.0, 10_001)
+    done = float(shares[np.searchsorted(shares**3 * (10 - 15 * shares + 6 * shares**2), share)])
+    speed_m_s = 30 * stroke_m / stroke_s * (done * (1 - done)) ** 2
+
+    def height_m(t: float) -> float:
+        s = min(max(t / stroke_s, 0.0), done)
+        return stroke_m * (share - s**3 * (10 - 15 * s + 6 * s * s))
+
+    speeds = speeds_of(height_m, 0.4, frames_hz, noise_m)
+    assert len(speeds) == 10
+    assert 0.85 * speed_m_s < np.mean(speeds) < most * speed_m_s
 
 
 @pytest.mark.parametrize("frames_hz", [30, 60, 90])
@@ -114,16 +160,17 @@ def test_dropped_object_lands_once(height_m: float, period_s: float) -> None:
 def test_a_landing_early_in_a_frame_is_as_fast_as_one_late_in_it(begins: float, frames_hz: int) -> None:
     times = [(step + begins) / frames_hz - 0.3 for step in range(frames_hz)]
     (found,) = landings_of(((0.0, RESTS_M + max(0.0, -1.5 * t), 0.0) for t in times), period_s=1 / frames_hz)
-    assert found.speed_m_s == pytest.approx(1.5)
+    assert found.speed_m_s == pytest.approx(1.5, rel=0.02)
 
 
 @pytest.mark.parametrize("frames_hz", [30, 60, 90, 120])
-def test_a_landing_soon_after_a_motion_began_is_as_fast_as_a_later_one(frames_hz: int) -> None:
-    """The control period, 20 ms, says nothing of the time in which the first step was made."""
+def test_a_landing_soon_after_a_motion_began_is_about_as_fast_as_a_later_one(frames_hz: int) -> None:
+    """The control period, 20 ms, says nothing of the time in which the first step was made. Two steps may be a fall,
+    which gains as much in a frame as this tolerance."""
     speed_m_s = 2.1
     rests_m = RESTS_M + 2.5 * speed_m_s / frames_hz  # it lands in the third frame
     graph = room(box("cup", (0.08, 0.12, 0.08), (0.0, rests_m, 0.0)), without="cup")
-    landings, found = Landings(graph, _middle, _half, _without_hinge, _not_closed, 0.02), list[Landing]()
+    landings, found = Landings(graph, _middle, _half, _without_hinge, _not_closed, 0.02, 1), list[Landing]()
     for frame in range(60):
         fell_m = speed_m_s * max(0, frame - 20) / frames_hz
         poses = {"cup": Pose((0.0, max(RESTS_M, rests_m - fell_m), 0.0))} if frame > 20 else {}
@@ -131,7 +178,7 @@ def test_a_landing_soon_after_a_motion_began_is_as_fast_as_a_later_one(frames_hz
         graph.update(poses)
         found += landings.look(poses, frame / frames_hz)
     (one,) = found
-    assert one.speed_m_s == pytest.approx(speed_m_s)
+    assert one.speed_m_s == pytest.approx(speed_m_s, abs=9.81 / frames_hz)
 
 
 @pytest.mark.parametrize("physics_hz", [50, 45, 40])

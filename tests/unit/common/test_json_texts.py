@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from scene2hap import HapticBundle, SceneObject, SceneSnapshot, TriMesh, UserProfile
-from scene2hap.common.printable import parse_json
+from scene2hap.common.json_texts import parse_json
 from scene2hap.errors import BundleError, ConfigError
 from scenes import table_with_two_phones
 

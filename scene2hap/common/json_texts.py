@@ -1,9 +1,13 @@
-"""What is wrong in a JSON file that a person edited by hand, in words that say what to do."""
+"""JSON texts: reading with errors that say what to do, since people edit files by hand, and safe display."""
 
 from __future__ import annotations
 
 import json
 import re
+from collections import Counter
+from typing import Any
+
+from scene2hap.common.printable import SURROGATES, UNSAFE_BUT_LINES, printable, writable
 
 _CONFLICT = re.compile(r"^(<{7}|={7}|>{7})( .*)?$", re.MULTILINE)
 """A line that git writes around two versions of the same lines."""
@@ -32,7 +36,39 @@ _MENDS_BY_MESSAGE = {
 """What to do, by the begin of the parser's own words."""
 
 
-def json_problem(error: json.JSONDecodeError) -> str:
+_SPELT_SURROGATE = re.compile(r"\\u[dD][89a-fA-F]")
+
+
+def parse_json(text: str | bytes) -> Any:
+    """Parse a JSON text. Raises: ValueError: it is none, or an object has a key twice; RecursionError."""
+    try:
+        return json.loads(text, object_pairs_hook=_each_key_once)
+    except json.JSONDecodeError as cause:
+        raise ValueError(_problem(cause)) from cause
+
+
+def _each_key_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)  # of two equal keys, this drops the first
+    if len(found) < len(pairs):
+        twice = next(key for key, n in Counter(key for key, _ in pairs).items() if n > 1)
+        raise ValueError(f"the key {printable(twice)[:200]!r} is given twice in one object; remove one")
+    return found
+
+
+def read_json(text: str) -> Any:
+    """Parse a JSON text as `parse_json`, and make its texts `writable`. Raises: ValueError, RecursionError."""
+    document = parse_json(text)
+    if not _SPELT_SURROGATE.search(text) and not SURROGATES.search(text):
+        return document
+    return parse_json(writable(json.dumps(document, ensure_ascii=False)))
+
+
+def printable_json(text: str) -> str:
+    """Escape the same characters in a JSON text by JSON escapes. Its meaning stays the same."""
+    return UNSAFE_BUT_LINES.sub(lambda found: f"\\u{ord(found.group()):04x}", text)
+
+
+def _problem(error: json.JSONDecodeError) -> str:
     """Return the line and the mistake in a text that is no JSON, and what to do."""
     text, at = error.doc, error.pos
     if not text.strip():
