@@ -76,11 +76,12 @@ class ModelObjects:
     """All future objects, and the rows of their poses."""
 
     def __init__(self, items: Sequence[ModelObject]) -> None:
-        self.all = tuple(items)
-        self.ids = tuple(item.id for item in items)
-        self.bodies = np.array([item.body for item in items], dtype=np.intp)
-        self.of_world = np.flatnonzero(self.bodies == WORLD)
-        self.geoms_of_world = np.array([self.all[row].geoms[0] for row in self.of_world.tolist()], dtype=np.intp)
+        self.all: tuple[ModelObject, ...] = tuple(items)
+        self.ids: tuple[str, ...] = tuple(item.id for item in items)
+        self.bodies: Indices = np.array([item.body for item in items], dtype=np.intp)
+        self.of_world: Indices = np.flatnonzero(self.bodies == WORLD)
+        own = [self.all[row].geoms[0] for row in self.of_world.tolist()]
+        self.geoms_of_world: Indices = np.array(own, dtype=np.intp)
         self._row_of_geom: Indices | None = None
 
     def row_of_geom(self, model: Any) -> Indices:
