@@ -49,7 +49,7 @@ class Output:
         self.sink: ActuatorSink | None = built
         self._config = config
         self._safety: SafetyLayer | None = None
-        self._latest: SafetyLayer | None = None
+        self._ended = SafetyStats()
         self._limits: NDArray[np.float64] | None = None
         self._show: Callable[[HapticFrame], None] | None = getattr(built, "show", None)
         self._shown: HapticFrame | None = None
@@ -76,7 +76,8 @@ class Output:
     @property
     def safety_stats(self) -> SafetyStats:
         """Counters of samples that the safety layer changed since the last start; they stay after a stop."""
-        return self._latest.stats if self._latest is not None else SafetyStats()
+        safety = self._safety
+        return self._ended if safety is None else safety.stats
 
     @property
     def problem(self) -> str | None:
@@ -151,8 +152,7 @@ class Output:
             with contextlib.suppress(Exception):  # the first error says what is wrong
                 self._release(self.sink, _discard(self.sink))
             raise
-        self._safety = self._latest = safety
-        self.is_unused = False
+        self._safety, self.is_unused = safety, False
         if has_clock(self.sink) or hasattr(self.sink, "abort"):
             # A program may end without `stop`: by an error, by Ctrl-C, or at the end of its code. Called before the
             # sink's own end, which neither fades nor completes a file.
@@ -175,7 +175,7 @@ class Output:
         if (sink := self._played_here()) is not None:
             if has_clock(sink):
                 self._fade_out(sink)
-            self._safety = None
+            self._end()
             self._release(sink, _discard(sink))
 
     def _played_here(self) -> ActuatorSink | None:
@@ -211,9 +211,15 @@ class Output:
         if was_started:
             self.start(fill, hands)
 
-    def _fade_out(self, sink: ActuatorSink) -> None:
+    def _end(self) -> SafetyLayer | None:
+        """Give the safety layer away and keep its counters: it refers to this output, and would be a cycle."""
         safety, self._safety = self._safety, None
-        if safety is None:
+        if safety is not None:
+            self._ended = safety.stats
+        return safety
+
+    def _fade_out(self, sink: ActuatorSink) -> None:
+        if (safety := self._end()) is None:
             return
         safety.release()
         if has_clock(sink):
@@ -222,6 +228,7 @@ class Output:
             # No clock, so the sink must be pulled. A sink that its owner has closed accepts no more samples.
             with contextlib.suppress(DeviceError):
                 sink.pull(round(FADE_OUT_S * self._config.sample_rate_hz))  # type: ignore[attr-defined]  # above
+        self._ended = safety.stats
 
 
 def _discard(sink: ActuatorSink) -> Callable[[], None]:
