@@ -65,7 +65,7 @@ def _faded_out(blocks: Iterator[Block], n_frames: int) -> Iterator[Block]:
 
 
 def _equalized(blocks: Iterator[Block], sound: SoundReader, actuator: ActuatorProfile) -> Iterator[Block]:
-    equalizers = [Equalizer(actuator, sound.rate) for _ in range(sound.channels)]
+    equalizer = Equalizer(actuator, sound.rate, sound.channels)
     for block in blocks:
-        yield np.stack([one.process(block[:, i]) for i, one in enumerate(equalizers)], axis=1)
-    yield np.stack([one.finish() for one in equalizers], axis=1)
+        yield equalizer.process(block)
+    yield equalizer.finish()

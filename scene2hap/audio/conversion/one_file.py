@@ -37,6 +37,7 @@ from scene2hap.audio.protocol import (
 )
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.common import checks
+from scene2hap.common.blas_threads import one_blas_thread
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import AudioError, ConfigError
 
@@ -89,6 +90,7 @@ class Conversion:
         )
 
 
+@one_blas_thread
 def convert(
     source: str | Path,
     output: str | Path,

@@ -4,13 +4,13 @@ import numpy as np
 
 from scene2hap.audio.tactile import roughness
 
-cdef double DEPTH = roughness.DEPTH, NOTHING = roughness.NOTHING, QUARTER_TURN = 0.5 * np.pi
+cdef double NOTHING = roughness.NOTHING, QUARTER_TURN = 0.5 * np.pi
 
 
-def modulated(const double[::1] bed, const double[::1] low, const double[::1] mean):
+def modulated(const double[::1] bed, const double[::1] low, const double[::1] mean, double depth):
     cdef Py_ssize_t i, n = bed.shape[0]
     cdef double envelope, share
-    cdef double depth = DEPTH, nothing = NOTHING, quarter_turn = QUARTER_TURN
+    cdef double nothing = NOTHING, quarter_turn = QUARTER_TURN
     found = np.empty(n)
     cdef double[::1] y = found
     for i in range(n):

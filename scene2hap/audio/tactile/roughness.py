@@ -34,14 +34,14 @@ class Roughened(Stage):
     def __init__(
         self, bed: Stage, band: Stage, line: Stage, rough_hz: float, sample_rate_hz: float, *, depth: float = DEPTH
     ) -> None:
-        self._bed, self._band, self._line, self._excess = bed, band, line, depth / DEPTH
+        self._bed, self._band, self._line, self._depth = bed, band, line, depth
         self._envelope = SosStage(scipy.signal.butter(2, rough_hz / _SLOWER, fs=sample_rate_hz, output="sos"))
-        self._waiting = np.empty((2, 0))  # low component and its envelope, as long as the bed is late
+        self._low = self._mean = np.empty(0)  # low component and its mean size, as long as the bed is late
 
     def run(self, x: Signal) -> Signal:
         """Return the modulated bed, as late as the bed."""
-        mean = self._envelope.run(np.abs(self._band.run(x)))
-        self._waiting = np.concatenate([self._waiting, [self._line.run(x), mean]], axis=1)
+        self._low = np.concatenate([self._low, self._line.run(x)])
+        self._mean = np.concatenate([self._mean, self._envelope.run(np.abs(self._band.run(x)))])
         return self._modulated(self._bed.run(x))
 
     def rest(self) -> Signal:
@@ -49,17 +49,20 @@ class Roughened(Stage):
         return self._modulated(self._bed.rest())
 
     def _modulated(self, bed: Signal) -> Signal:
-        low, mean = np.ascontiguousarray(self._waiting[:, : len(bed)])
-        self._waiting = self._waiting[:, len(bed) :]
-        rough = modulated(bed, low, mean)
-        return rough if self._excess == 1.0 else bed + self._excess * (rough - bed)
+        n = len(bed)
+        rough = modulated(bed, self._low[:n], self._mean[:n], self._depth)
+        self._low, self._mean = self._low[n:], self._mean[n:]
+        return rough
 
 
 @compiled
-def modulated(bed: NDArray[np.float64], low: NDArray[np.float64], mean: NDArray[np.float64]) -> NDArray[np.float64]:
+def modulated(
+    bed: NDArray[np.float64], low: NDArray[np.float64], mean: NDArray[np.float64], depth: float
+) -> NDArray[np.float64]:
     """Modulate a bed (n,) by a low component (n,), divided by its envelope. Returns: (n,).
 
-    Parameters: mean : the low-passed absolute value of the component (n,), from which the envelope follows.
+    Parameters: mean : the low-passed absolute value of the component (n,), from which the envelope follows; depth : of
+    the modulation [-].
     """
     envelope = np.maximum(mean * (0.5 * np.pi), NOTHING)
-    return np.asarray(bed * (1.0 + DEPTH * np.clip(low / envelope, -1.0, 1.0)))
+    return np.asarray(bed * (1.0 + depth * np.clip(low / envelope, -1.0, 1.0)))

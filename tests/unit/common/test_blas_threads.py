@@ -2,15 +2,21 @@
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from threading import Barrier
 from typing import Any
 
+import numpy as np
 import pytest
 import scipy.linalg  # noqa: F401  # loads scipy's library
+import soundfile
 from threadpoolctl import ThreadpoolController
 
 from contact_scenes import box
 from scene2hap import HapticSession, SceneSnapshot, SessionConfig, Touch, bake
+from scene2hap.audio import convert
+from scene2hap.audio.clip import Samples
+from scene2hap.audio.tactile.stages import StageStream
 from scene2hap.common.blas_threads import one_blas_thread, set_threads
 from scene2hap.propagation.coupled.coupling import couple
 from scene2hap.propagation.points import object_points
@@ -101,3 +107,18 @@ def test_sessions_prepare_and_evaluate_physical_models_with_one_thread(
     frame = session.update({}, [Touch("left", "wooden table", (0.3, 0.0, 0.1))])
     assert frame.gain("left", "phone") > 0
     assert seen == {"prepare": {1}, "evaluate": {1}}
+
+
+def test_a_sound_file_is_converted_with_one_thread(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: set[int] = set()
+
+    def noted(stream: StageStream, block: Samples) -> Samples:
+        seen.update(n_threads())
+        return process(stream, block)
+
+    process = StageStream.process
+    monkeypatch.setattr(StageStream, "process", noted)
+    x = np.random.default_rng(1).uniform(-0.5, 0.5, (48_000, 2))
+    soundfile.write(tmp_path / "noise.wav", x, 48_000)
+    convert(tmp_path / "noise.wav", tmp_path / "felt.wav")
+    assert seen == {1}

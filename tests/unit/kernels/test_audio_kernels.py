@@ -126,5 +126,5 @@ def test_kernels_modulate_by_a_low_component_alike(seed: int) -> None:
     rng = np.random.default_rng(seed)
     bed, low = rng.standard_normal((2, 500))
     mean = rng.uniform(-0.1, 1.0, 500) * (rng.random(500) < 0.9)
-    plain, compiled = (kernel(bed, low, mean) for kernel in both("audio.tactile.roughness.modulated"))
+    plain, compiled = (kernel(bed, low, mean, 0.7) for kernel in both("audio.tactile.roughness.modulated"))
     np.testing.assert_allclose(compiled, plain, rtol=1e-13)

@@ -102,7 +102,8 @@ def power_tool(
     """A universal motor behind a gear: motor and spindle imbalance, gear mesh (teeth) and commutator (segments).
 
     The cut material loads the motor twice per turn of the spindle. `spindle` is the spindle's level; above 1 it
-    dominates, as the disc of a grinder does.
+    dominates, as the disc of a grinder does. A tool on the motor's own shaft has a level of 0, since a shaft has one
+    imbalance: two of random phases would cancel each other in some takes.
     """
     motor_speed = take.speed_hz(motor_hz) * (1.0 + 0.004 * wander(take.rng, 2.0))
     turn = phase(motor_speed)

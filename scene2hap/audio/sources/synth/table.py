@@ -106,8 +106,11 @@ _PURR = replace(_strokes(26.3, 79.0, 0.012, click=0.05), rhythm=Rhythm(1.4, 0.28
 _DRIP = _strokes(1.3, 300.0, 0.02)
 _JACKHAMMER = Patch(partial(blows, per_second=25.0, body_hz=125.0, decay_s=0.03), (95.0, 155.0))
 _CLATTER = _strokes(30.0, 120.0, 0.015)
-# Household machines make up to 850 stitches a minute, and each moves the needle down and up (data sheets, from memory).
-_STITCHES = _strokes(14.0, 112.0, 0.03)
+# A motor of 7000 turns a minute drives the needle by a belt, for up to 850 stitches a minute, in machines of any size.
+# A crank moves the needle, so that its strokes are regular (data sheets of household machines, from memory).
+_STITCHES = Patch(
+    partial(geared, motor_hz=117.0, output_hz=14.0, load=0.3, rumble=0.3, thump_hz=112.0, slack=0.0), (112.0, 122.0)
+)
 # 4200 blows a minute of a pneumatic striker (data sheets of rotary hammers of 3 kg, from memory).
 _ROTARY_HAMMER = _strokes(70.0, 140.0, 0.012)
 _CAR = _engine(28.0, 2, 4.5)
@@ -118,9 +121,9 @@ _TWO_STROKE = _engine(117.0, 1, 0.8)
 # Two cutting edges at 18 turns a second.
 _DRILL = replace(_tool(250.0, 18.0, 0.25), rhythm=Rhythm(36.0, 0.4))
 # Its blades sit on the motor; what they hit passes under them twice a turn, and now and then.
-_BLENDER = replace(_tool(290.0, 290.0, 0.4, spindle=0.8), rhythm=Rhythm(13.0, 0.4, 0.05))
+_BLENDER = replace(_tool(290.0, 290.0, 0.4, spindle=0.0), rhythm=Rhythm(13.0, 0.4, 0.05))
 # Beans break under the blades, more of them at a time than a blender's soft contents.
-_COFFEE_GRINDER = replace(_tool(260.0, 260.0, 0.25, spindle=0.6), rhythm=Rhythm(21.0, 0.5, 0.05))
+_COFFEE_GRINDER = replace(_tool(260.0, 260.0, 0.25, spindle=0.0), rhythm=Rhythm(21.0, 0.5, 0.05))
 # A universal motor behind a planetary gear, whose beater meets the dough two or three times a second.
 _DOUGH_MIXER = _geared(165.0, 2.6, 0.4, load=0.3, rumble=0.3)
 _GRINDER = _tool(420.0, 183.0, 0.3, spindle=1.5, loud_hz=183.0)

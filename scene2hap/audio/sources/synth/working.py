@@ -32,22 +32,27 @@ def geared(
     load: float = 0.2,
     rumble: float = 0.2,
     thump_hz: float = 0.0,
+    slack: float = 0.05,
     on_mains: bool = False,
 ) -> Signal:
-    """An electric motor that drives slow parts through a gear: paddles, rollers, chains, drums.
+    """An electric motor that drives slower parts by a gear or a belt: paddles, rollers, chains, drums, needles.
 
     An induction motor `on_mains` turns at `motor_hz` at a mains frequency of 50 Hz.
     The output loads the motor once per turn, by the share `load`; `rumble` is the level of rolling or sliding parts.
-    With a `thump_hz`, a body that rings at that pitch is struck once per turn of the output.
+    With a `thump_hz`, a body that rings at that pitch is struck once per turn of the output, give or take the share
+    `slack` of a turn.
     """
     speed_hz = take.mains_speed_hz(motor_hz) if on_mains else take.shaft_hz(motor_hz)
     turn = phase(speed_hz * (1.0 + 0.003 * wander(take.rng)))
+    output = turn * (output_hz / motor_hz)
     tone = unit_rms(partials(turn, take.roll_off(6), take.rng))
-    y = tone * (1.0 + load * np.cos(turn * (output_hz / motor_hz)))
+    y = tone * (1.0 + load * np.cos(output))
     y += rumble * (0.6 + 0.8 * take.drive) * noise(take.rng, 40.0, 1500.0, -6.0)
     if thump_hz:
-        n = max(1, round(output_hz * DURATION_S))
-        at = (np.arange(n) + 0.5 + 0.05 * take.rng.uniform(-1.0, 1.0, n)) / n * DURATION_S
+        # A whole number, so that the first strike of a loop follows the last.
+        n = max(1, round(output[-1] / (2.0 * np.pi)))
+        struck = (np.arange(n) + 0.5 + slack * take.rng.uniform(-1.0, 1.0, n)) / n
+        at = np.interp(struck * output[-1], output, times())
         y += 0.3 * unit_rms(ringing(at, take.rng.uniform(0.7, 1.0, n), thump_hz, 3.0 / thump_hz))
     return y
 

@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from scipy.signal import hilbert
+from scipy.signal import butter, hilbert, sosfilt
 
 from scene2hap.audio.actuators import actuator_profile
 from scene2hap.audio.anchor import anchor_of
@@ -106,6 +106,14 @@ def test_a_gear_loads_its_motor_once_per_turn_of_the_output() -> None:
     assert motor / output == pytest.approx(8.0, rel=0.02)
     envelope = np.abs(hilbert(y))[SAMPLE_RATE_HZ // 2 : -SAMPLE_RATE_HZ // 2]
     assert line_hz(envelope, 3.0, 12.0) == pytest.approx(output, abs=0.25)
+
+
+def test_a_geared_output_strikes_once_per_turn_at_any_size() -> None:
+    """Strikes had the output's nominal rate, while its load had the rate of a machine of this size."""
+    y = geared(take(size_factor=1.25), motor_hz=117.0, output_hz=14.0, load=0.0, rumble=0.0, thump_hz=1500.0)
+    motor = line_hz(y, 130.0, 160.0)
+    strikes = sosfilt(butter(4, 1000.0, "highpass", fs=SAMPLE_RATE_HZ, output="sos"), y)
+    assert line_hz(np.abs(strikes), 10.0, 24.0) == pytest.approx(motor * 14.0 / 117.0, rel=0.02)
 
 
 def test_a_power_tool_whines_at_teeth_times_motor_speed() -> None:
@@ -388,6 +396,23 @@ def test_strokes_have_the_rate_of_their_kind(thing: str, verb: str, rate_hz: flo
     f, magnitude = spectrum(np.abs(y))
     slow = (f > 0.5) & (f < 90.0)
     assert float(f[slow][np.argmax(magnitude[slow])]) == pytest.approx(rate_hz, rel=0.1)
+
+
+def test_the_motor_of_a_sewing_machine_is_heard_between_its_stitches() -> None:
+    """It was 20 dB of silence; a motor that is loaded by 30 % varies by 5 dB."""
+    y = Synthesizer().find(asked("sewing machine", "clattering", 0.6))[0].samples.astype(float)
+    levels_db = 10.0 * np.log10((y.reshape(-1, SAMPLE_RATE_HZ // 50) ** 2).mean(axis=1))
+    assert np.percentile(levels_db, 95) - np.percentile(levels_db, 5) < 8.0
+
+
+def test_blades_on_the_shaft_of_a_motor_are_felt_at_its_speed_in_every_take() -> None:
+    """Two imbalances on one shaft cancelled each other in some takes, which were felt an octave higher."""
+    wanted = replace(asked("coffee grinder", "grinding", 0.6), size_m=(0.3, 0.4, 0.3))
+    for seed in range(24):
+        (clip,) = Synthesizer().find(replace(wanted, seed=seed))
+        anchor = anchor_of(clip.samples, clip.sample_rate_hz, sensation_level_db(0.6), actuator_profile("flat"))
+        assert anchor is not None
+        assert 190.0 < anchor.felt_hz < 235.0
 
 
 def test_rain_is_no_machine() -> None:
