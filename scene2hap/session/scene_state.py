@@ -18,7 +18,7 @@ from scene2hap.scene.objects import VERTICAL, Contact, SceneObject, unknown_obje
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import RemovedIds
-from scene2hap.session.impacts.slams import RelativePoses, Slam, encloses, is_closed, slam_of
+from scene2hap.session.impacts.slams import RelativePoses, Slam, is_closed, may_enclose, slam_of
 from scene2hap.session.network import BoxCentres, Corners, PlatePoses, body_of, own_half_m, own_middle_m, rigid_body_of
 from scene2hap.session.reach import Reach, reach_over
 
@@ -44,7 +44,6 @@ class SceneState:
         self.graph: ContactGraph = ContactGraph(scene)
         self._spelling = _Spelling()
         self._corners: Corners = {}
-        self._enclosed: dict[tuple[str, str], bool] = {}
         self.ids: frozenset[str] = frozenset(self.objects)
         self._removed = RemovedIds()
 
@@ -102,7 +101,6 @@ class SceneState:
         self.haptics = _with(self.haptics, object_id, None)
         self.bodies = _with(self.bodies, object_id, None)
         self._removed.add(object_id)
-        self._enclosed.clear()
         # A copy, since another thread may still write to the former mapping.
         self._corners = _with(self._corners, object_id, None)
         return change
@@ -127,15 +125,12 @@ class SceneState:
         return slam_of(item, item.hinge, holder, way(holder.id))
 
     def drawer(self, object_id: str, other: str) -> Callable[[RelativePoses], bool] | None:
-        """Return the test whether an object is a drawer that is shut, see `slams.is_closed`; None if another does not
-        enclose it."""
+        """Return the test whether an object is a drawer that is shut, see `slams.is_closed`; None if another clearly
+        does not enclose it, as for most pairs."""
         item, holder, pose = self.objects[object_id], self.objects[other], self.graph.pose
-        is_enclosed = self._enclosed.get((object_id, other))
-        if is_enclosed is None:
-            is_enclosed = self._enclosed[object_id, other] = encloses(holder, item, self.up_axis)
-        if not is_enclosed:
+        if not may_enclose(holder, item):
             return None
-        return lambda way: is_closed(item, holder, way, (pose(object_id), pose(other)))
+        return lambda way: is_closed(item, holder, way, (pose(object_id), pose(other)), self.up_axis)
 
     def on_plate(self, object_id: str, point_m: tuple[float, float, float]) -> tuple[float, float] | None:
         """Coordinates of a world point [m] along length and width of an object's plate; None without a plate."""

@@ -27,6 +27,7 @@ from scene2hap.scene.hinges import HINGE_PLAY_M
 from scene2hap.scene.objects import Hinge, SceneObject
 from scene2hap.scene.pose import Pose, in_own, in_world
 from scene2hap.scene.shapes import Box
+from scene2hap.session.network import own_middle_m
 
 CLOSED_M = 0.005
 """Greatest distance of a closed drawer from its place in the scene [m]; assumed: physics engines let it rebound."""
@@ -97,21 +98,29 @@ def slam_of(item: SceneObject, hinge: Hinge, holder: SceneObject, way: RelativeP
     return Slam(item, holder, way)
 
 
-def encloses(holder: SceneObject, item: SceneObject, up_axis: int) -> bool:
-    """Return True if an object is in a larger one, where the scene has both, as a drawer that is shut."""
-    drawer, carcass = (Body("", shape_of(x.geometry.mesh), x.pose, up_axis) for x in (item, holder))
-    return drawer.size_m < carcass.size_m and enclosed(drawer, carcass)[0] > 0
+def may_enclose(holder: SceneObject, item: SceneObject) -> bool:
+    """Return False if an object is clearly not a drawer of another one: the middle of its box is not in the other's,
+    where the scene has both."""
+    low, high = holder.geometry.mesh.bounds_m.tolist()
+    at_m = _place(own_middle_m(item), (item.pose, holder.pose))
+    return all(a <= x <= b for a, x, b in zip(low, at_m, high, strict=True))
 
 
-def is_closed(item: SceneObject, holder: SceneObject, way: RelativePoses, now: tuple[Pose, Pose]) -> bool:
-    """Return True if a drawer is where the scene has it, or was within its last step and rebounds.
+def is_closed(item: SceneObject, holder: SceneObject, way: RelativePoses, now: tuple[Pose, Pose], up_axis: int) -> bool:
+    """Return True if a drawer is in a larger object as it is in the scene, or was within its last step and rebounds.
 
     Parameters: now : the poses after the step in which it stopped or turned, if that is no step of `way`.
     """
     origin = (0.0, 0.0, 0.0)
     authored, before, last, present = (_place(origin, poses) for poses in ((item.pose, holder.pose), *way[-2:], now))
     travel_m = 0.0 if present == last else math.dist(before, last)
-    return math.dist(last, authored) <= CLOSED_M + travel_m
+    if math.dist(last, authored) > CLOSED_M + travel_m:
+        return False
+    poses = way[-1]
+    drawer, carcass = (
+        Body("", shape_of(x.geometry.mesh), at, up_axis) for x, at in zip((item, holder), poses, strict=True)
+    )
+    return drawer.size_m < carcass.size_m and enclosed(drawer, carcass)[0] > 0
 
 
 def _place(own_m: Vector, poses: tuple[Pose, Pose]) -> Vector:

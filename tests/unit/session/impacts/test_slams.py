@@ -300,23 +300,6 @@ def test_a_drawer_slams_when_it_is_shut_where_physics_is_slower_than_frames(phas
     assert 0.6 < slam.speed_m_s < 1.25
 
 
-def test_an_object_is_a_drawer_where_the_scene_has_it_in_another_one() -> None:
-    """Also one that comes back under the same id, as something else."""
-    cabinet, drawer = chest(0.012)
-    scene = SceneSnapshot.build([cabinet, drawer])
-    session = HapticSession(scene, bake(scene))
-    test = session._state.drawer("drawer", "wooden cabinet")
-    assert test is not None
-    shut, out = drawer.pose, Pose((0.0, 0.0, 0.02))
-    assert test([(out, cabinet.pose), (out, cabinet.pose), (shut, cabinet.pose)])
-    session.update({"drawer": out})
-    assert not test([(out, cabinet.pose)] * 3)
-    assert session._state.drawer("wooden cabinet", "drawer") is None
-    session.remove("drawer")
-    session.add(SceneObject("drawer", pose=Pose((1.0, 0.1, 0.0)), geometry=Box((0.2, 0.2, 0.2))))
-    assert session._state.drawer("drawer", "wooden cabinet") is None
-
-
 def test_an_object_that_is_slid_to_its_place_on_a_table_does_not_slam() -> None:
     """Nothing encloses it."""
     table = SceneObject("wooden table", pose=Pose((0.0, 0.375, 0.0)), geometry=Box((1.0, 0.75, 1.0)))
