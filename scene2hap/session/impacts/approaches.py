@@ -15,7 +15,7 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
 from scene2hap.scene.geometry import Vector, cross, difference, dot
 from scene2hap.scene.pose import in_world
-from scene2hap.session.impacts.motion_track import STILL
+from scene2hap.session.impacts.motion_track import LEAST_TRAVEL_M, STILL
 from scene2hap.session.impacts.relative_motion import RelativeMotion
 from scene2hap.session.impacts.slams import RelativePoses, Slam
 
@@ -44,8 +44,8 @@ class Approach(NamedTuple):
 class Approaches:
     """Lists the approaches of an object between two updates.
 
-    Parameters: slam : what an object on a hinge may slam against; is_closed : whether an object is a closed drawer of
-    another.
+    Parameters: slam : what an object on a hinge may slam against; drawer : the test whether an object is a drawer that
+    is shut, None if another does not enclose it.
     """
 
     def __init__(
@@ -53,12 +53,13 @@ class Approaches:
         graph: ContactGraph,
         motion: RelativeMotion,
         slam: Callable[[str, Callable[[str], RelativePoses]], Slam | None],
-        is_closed: Callable[[str, str, RelativePoses], bool],
+        drawer: Callable[[str, str], Callable[[RelativePoses], bool] | None],
     ) -> None:
-        self._graph, self._motion, self._slam, self._is_closed = graph, motion, slam, is_closed
+        self._graph, self._motion, self._slam, self._drawer = graph, motion, slam, drawer
 
     def at_contacts(self, object_id: str, met: Mapping[str, Junction], between: tuple[int, int]) -> Iterator[Approach]:
-        """Approaches at the present and former contacts of an object, and at its edge if a hinge holds it.
+        """Approaches at the present and former contacts of an object, and at its edge if a hinge holds it. Without
+        those at contacts that are too short for a landing.
 
         Present contacts come first, a contact at a hinge last among these, since a contact elsewhere shows where the
         two objects meet. Sorted, since the graph's order depends on the hashes of ids, which differ in each run of
@@ -77,19 +78,23 @@ class Approaches:
             for side in _sides(met[other]):
                 point = _middle(side)
                 came = self._motion.nearing_m(object_id, other, point, *between)
-                yield Approach(other, point, came, self._normal(object_id, other, point, side, between[0]), meets)
+                # A pivot does not travel: links of a robot have no other contact with each other.
+                if math.hypot(*came) > LEAST_TRAVEL_M:
+                    yield Approach(other, point, came, self._normal(object_id, other, point, side, between[0]), meets)
 
     def in_holders(self, object_id: str, between: tuple[int, int]) -> Iterator[Approach]:
         """Approaches of a drawer to what encloses it."""
         beside = self._graph.beside.get(object_id, NO_JUNCTIONS)
         for other in sorted(beside):
-            point = _middle(beside[other])
-            came = self._motion.nearing_m(object_id, other, point, *between)
-            closed = partial(self._is_drawer_of, object_id, other)
-            yield Approach(other, point, came, _direction(came), closed, is_contact=False, is_seen=False)
+            is_closed = self._drawer(object_id, other)
+            if is_closed is not None:
+                point = _middle(beside[other])
+                came = self._motion.nearing_m(object_id, other, point, *between)
+                closed = partial(self._is_shut, object_id, other, is_closed)
+                yield Approach(other, point, came, _direction(came), closed, is_contact=False, is_seen=False)
 
-    def _is_drawer_of(self, object_id: str, other: str) -> bool:
-        return self._is_closed(object_id, other, self._motion.poses(object_id, other))
+    def _is_shut(self, object_id: str, other: str, is_closed: Callable[[RelativePoses], bool]) -> bool:
+        return is_closed(self._motion.poses(object_id, other))
 
     def _normal(self, object_id: str, other: str, point_m: Vector, junction: Junction, since: int) -> Vector:
         """Normal from the object to the other: the contact's, else that of its points if they span a plane, else the

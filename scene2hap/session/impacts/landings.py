@@ -75,9 +75,9 @@ class Landings:
     """Follows moving objects, and finds those that land.
 
     Parameters: graph : the contacts, read at each `look`; middle_m : the middle of an object's box, in its own frame
-    [m]; half_m : half the sides of this box [m]; slam : what an object on a hinge may slam against; is_closed :
-    whether an object is a closed drawer of another; period_s : usual time between updates, where the clock shows
-    none; up_axis : number of the vertical axis.
+    [m]; half_m : half the sides of this box [m]; slam : what an object on a hinge may slam against; drawer : the
+    test whether an object is a drawer that is shut, None if another does not enclose it; period_s : usual time between
+    updates, where the clock shows none; up_axis : number of the vertical axis.
     """
 
     def __init__(
@@ -86,7 +86,7 @@ class Landings:
         middle_m: Callable[[str], Vector],
         half_m: Callable[[str], Vector],
         slam: Callable[[str, Callable[[str], RelativePoses]], Slam | None],
-        is_closed: Callable[[str, str, RelativePoses], bool],
+        drawer: Callable[[str, str], Callable[[RelativePoses], bool] | None],
         period_s: float,
         up_axis: int,
     ) -> None:
@@ -94,7 +94,7 @@ class Landings:
         self._period_s = period_s
         self._motion = RelativeMotion(graph)
         self._closing = ClosingSpeed(self._motion, period_s, up_axis)
-        self._approaches = Approaches(graph, self._motion, slam, is_closed)
+        self._approaches = Approaches(graph, self._motion, slam, drawer)
         self._near: dict[str, dict[str, Junction]] = {}
         """Contacts of each moving object before the present step, and in all of its updates but the last."""
         self._moved: dict[str, None] = {}

@@ -147,6 +147,11 @@ class MotionTrack:
 
     def pose_at(self, update: int) -> Pose:
         """Return the pose after an update, or the first known pose after it."""
+        steps = self.steps
+        # Most objects have a step in each update.
+        place = len(steps) - 1 - (steps[-1][0] - update)
+        if 0 <= place < len(steps) and steps[place][0] == update:
+            return steps[place][2]
         found = self.pose
         for later, _, pose in reversed(self.steps):
             if later < update:

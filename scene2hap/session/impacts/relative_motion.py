@@ -84,4 +84,4 @@ class RelativeMotion:
         if begin.rotation_xyzw == end.rotation_xyzw == pose.rotation_xyzw:
             return difference(end.position_m, begin.position_m)
         own_m = in_own(point_m, pose)
-        return difference(in_world(own_m, end), in_world(own_m, begin))
+        return difference(point_m if end is pose else in_world(own_m, end), in_world(own_m, begin))

@@ -22,15 +22,16 @@ from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.geometry.boxes import Boxes
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.shape import Shape, shape_of
-from scene2hap.scene.geometry import Vector
+from scene2hap.scene.geometry import Vector, vector
 from scene2hap.scene.hinges import HINGE_PLAY_M
 from scene2hap.scene.objects import Hinge, SceneObject
 from scene2hap.scene.pose import Pose, in_own, in_world
 from scene2hap.scene.shapes import Box
+from scene2hap.session.network import own_middle_m
 
 CLOSED_M = 0.005
 """Greatest distance of a closed drawer from its place in the scene [m]; assumed: physics engines let it rebound."""
-_ENDS = np.array(list(product((0, 1), repeat=3)))
+_ENDS = tuple(product((0, 1), repeat=3))
 """The end of a box along each axis at which each of its corners is."""
 
 
@@ -47,16 +48,23 @@ class Slam:
     def __init__(self, item: SceneObject, holder: SceneObject, way: RelativePoses) -> None:
         self.holder: str = holder.id
         self._shape_of_holder, self._way = shape_of(holder.geometry.mesh), way
-        before, now = _relative(way[1]), _relative(way[2])
-        low, high = item.geometry.mesh.bounds_m
-        corners_m = np.where(_ENDS, high, low)
-        travels_m = np.linalg.norm(now.to_world(corners_m) - before.to_world(corners_m), axis=1)
-        axis, end = max(product(range(3), (0, 1)), key=lambda side: travels_m[_ENDS[:, side[0]] == side[1]].sum())
-        far = np.where(np.arange(3) == axis, (low, high)[end], (low + high) / 2)
-        x, y, z = far.tolist()
-        self.edge_m: Vector = (x, y, z)
-        self._far_half = (far + (low + high) / 2) / 2, np.where(np.arange(3) == axis, 0.5, 1.0) * (high - low)
-        self._travel_m = float(travels_m.max())
+        # Plain numbers, since a robot that flails has many of these in each frame.
+        spans_m: list[list[float]] = item.geometry.mesh.bounds_m.T.tolist()
+        _, before, now = way
+        corners = map(vector, product(*spans_m))
+        travels_m = [math.dist(_place(corner, before), _place(corner, now)) for corner in corners]
+        axis, end = max(
+            product(range(3), (0, 1)),
+            key=lambda side: sum(x for x, ends in zip(travels_m, _ENDS, strict=True) if ends[side[0]] == side[1]),
+        )
+        far, lengths_m = [(low + high) / 2 for low, high in spans_m], [high - low for low, high in spans_m]
+        half = [*far]
+        far[axis] = spans_m[axis][end]
+        half[axis] = (half[axis] + far[axis]) / 2
+        lengths_m[axis] /= 2
+        self.edge_m: Vector = vector(far)
+        self._far_half = vector(half), vector(lengths_m)
+        self._travel_m = max(travels_m)
 
     def meets(self) -> bool:
         """Whether the holder is in the way of the far half. Finding it takes a millisecond."""
@@ -69,7 +77,7 @@ class Slam:
     @cached_property
     def _meets(self) -> bool:
         middle_m, sizes_m = self._far_half
-        half, at = _box(tuple(sizes_m.tolist())), Pose(tuple(middle_m))
+        half, at = _box(sizes_m), Pose(middle_m)
         begin, before, now = (_relative(poses).compose(at) for poses in self._way)
         # Steps of twice the play cannot pass through the holder: what is within the play on either side counts as met.
         shares = np.linspace(0, 1, 1 + math.ceil(self._travel_m / (2 * HINGE_PLAY_M))).tolist()
@@ -90,12 +98,21 @@ def slam_of(item: SceneObject, hinge: Hinge, holder: SceneObject, way: RelativeP
     return Slam(item, holder, way)
 
 
+def may_enclose(holder: SceneObject, item: SceneObject) -> bool:
+    """Return False if an object is clearly not a drawer of another one: the middle of its box is not in the other's,
+    where the scene has both."""
+    low, high = holder.geometry.mesh.bounds_m.tolist()
+    at_m = _place(own_middle_m(item), (item.pose, holder.pose))
+    return all(a <= x <= b for a, x, b in zip(low, at_m, high, strict=True))
+
+
 def is_closed(item: SceneObject, holder: SceneObject, way: RelativePoses, now: tuple[Pose, Pose], up_axis: int) -> bool:
     """Return True if a drawer is in a larger object as it is in the scene, or was within its last step and rebounds.
 
     Parameters: now : the poses after the step in which it stopped or turned, if that is no step of `way`.
     """
-    authored, before, last, present = map(_place, ((item.pose, holder.pose), *way[-2:], now))
+    origin = (0.0, 0.0, 0.0)
+    authored, before, last, present = (_place(origin, poses) for poses in ((item.pose, holder.pose), *way[-2:], now))
     travel_m = 0.0 if present == last else math.dist(before, last)
     if math.dist(last, authored) > CLOSED_M + travel_m:
         return False
@@ -106,10 +123,10 @@ def is_closed(item: SceneObject, holder: SceneObject, way: RelativePoses, now: t
     return drawer.size_m < carcass.size_m and enclosed(drawer, carcass)[0] > 0
 
 
-def _place(poses: tuple[Pose, Pose]) -> Vector:
-    """Return the position of an object in the other's frame [m], as that of `_relative`, but quickly."""
+def _place(own_m: Vector, poses: tuple[Pose, Pose]) -> Vector:
+    """Return a point of an object in the other's frame [m]."""
     pose, its = poses
-    return in_own(pose.position_m, its)
+    return in_own(in_world(own_m, pose), its)
 
 
 def _relative(poses: tuple[Pose, Pose]) -> Pose:

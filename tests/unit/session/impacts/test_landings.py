@@ -45,12 +45,12 @@ def _without_hinge(object_id: str, way: Callable[[str], RelativePoses]) -> None:
     pass
 
 
-def _not_closed(object_id: str, other: str, way: RelativePoses) -> bool:
-    return False
+def _no_drawer(object_id: str, other: str) -> None:
+    pass
 
 
 def followed(graph: ContactGraph, period_s: float, middle_m: Callable[[str], Triple] = _middle) -> Landings:
-    return Landings(graph, middle_m, _half, _without_hinge, _not_closed, period_s, 1)
+    return Landings(graph, middle_m, _half, _without_hinge, _no_drawer, period_s, 1)
 
 
 def landings_of(path: Path, *, moved: str = "cup", period_s: float = PERIOD_S, clock: bool = True) -> list[Landing]:
@@ -170,7 +170,7 @@ def test_a_landing_soon_after_a_motion_began_is_about_as_fast_as_a_later_one(fra
     speed_m_s = 2.1
     rests_m = RESTS_M + 2.5 * speed_m_s / frames_hz  # it lands in the third frame
     graph = room(box("cup", (0.08, 0.12, 0.08), (0.0, rests_m, 0.0)), without="cup")
-    landings, found = Landings(graph, _middle, _half, _without_hinge, _not_closed, 0.02, 1), list[Landing]()
+    landings, found = Landings(graph, _middle, _half, _without_hinge, _no_drawer, 0.02, 1), list[Landing]()
     for frame in range(60):
         fell_m = speed_m_s * max(0, frame - 20) / frames_hz
         poses = {"cup": Pose((0.0, max(RESTS_M, rests_m - fell_m), 0.0))} if frame > 20 else {}
