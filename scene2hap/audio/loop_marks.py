@@ -38,6 +38,11 @@ def marked_loop(path: Path, n_samples: int, rate_hz: int) -> tuple[int, int] | N
     return None
 
 
+def is_marked_whole(path: Path, n_samples: int, rate_hz: int) -> bool:
+    """Return True if a file of `n_samples` marks all of itself as its loop. Raises: OSError."""
+    return marked_loop(path, n_samples, rate_hz) == (0, n_samples)
+
+
 def _loops(chunk: bytes) -> list[tuple[int, int, int]]:
     """Return kind, first and last sample of each loop in a chunk."""
     whole = chunk[_SAMPLER.size :]

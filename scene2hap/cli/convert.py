@@ -53,6 +53,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--format", choices=[suffix[1:] for suffix in FORMATS], default="wav", help="of files in a folder, default wav"
     )
     parser.add_argument("--raw", action="store_true", help="output of the converter, neither equalized nor levelled")
+    parser.add_argument(
+        "--loop",
+        action=argparse.BooleanOptionalAction,
+        help="the sounds are loops, and so are the results; without it, those WAVs that mark all of themselves as one",
+    )
     parser.add_argument("--mono", action="store_true", help="mix the channels of each file first")
     parser.add_argument("--picture", action="store_true", help="draw spectrograms and envelopes beside each file")
     parser.add_argument("--force", action="store_true", help="overwrite files that exist")
@@ -76,6 +81,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             intensity=arguments.intensity,
             mono=arguments.mono,
             raw=arguments.raw,
+            loop=arguments.loop,
             overwrite=arguments.force,
         )
     made = [outcome for outcome in outcomes if isinstance(outcome, Conversion)]

@@ -19,12 +19,17 @@ from scene2hap.haptics import ActuatorProfile
 
 _END_S = 0.01
 """Length of the fade-out at the end of a file [s]; a sound that breaks off would end with a knock."""
+_SEAM_S = 0.02
+"""Length of the cross-fade from the end of a loop to its beginning [s]. The oscillator of a converter may have another
+phase there: two opposed waves cancel each other for this time, a few waves at 200 Hz (assumed)."""
 
 
 def levelled(
     blocks: Iterator[Block], sound: SoundReader, context: ConversionContext, held: IO[bytes], *, is_chosen: bool
 ) -> tuple[Iterator[Block], float | None]:
-    """Equalize, fade out and scale a vibration to the level of its source, or to the peak limit if that is lower.
+    """Equalize a vibration, end it, and scale it to the level of its source, or to the peak limit if that is lower.
+
+    A sound fades out. The end of a loop meets its beginning, and the frames around it are dropped.
 
     Returns the blocks, and the sensation level [dB]; None if the vibration is nothing, or noise (`is_noise`), which is
     not scaled. All blocks go through the temporary file `held`, since the gain follows from the whole sound.
@@ -32,7 +37,8 @@ def levelled(
     felt = FeltLevel(sound.rate, sound.channels, context.actuator)
     if not is_flat(context.actuator):
         blocks = _equalized(blocks, sound, context.actuator)
-    for block in _faded_out(blocks, max(1, round(_END_S * sound.rate))):
+    ended = _looped(blocks, sound) if sound.n_around else _faded_out(blocks, max(1, round(_END_S * sound.rate)))
+    for block in ended:
         felt.hear(block)
         held.write(np.ascontiguousarray(block).data)
     now_db = felt.level_db()
@@ -47,6 +53,15 @@ def _scaled(held: IO[bytes], channels: int, gain: float) -> Iterator[Block]:
     held.seek(0)
     while len(part := np.frombuffer(held.read(4 * BLOCK_FRAMES * channels), dtype=np.float32)):
         yield part.reshape(-1, channels) * np.float32(gain)
+
+
+def _looped(blocks: Iterator[Block], sound: SoundReader) -> Iterator[Block]:
+    """Yield a loop without the frames around it; after its end they cross-fade to its beginning."""
+    from scene2hap.audio.loops.seam import Seam, apply_seam  # here, since `audio.loops` imports conversion
+
+    felt, n_frames = np.concatenate([*blocks]), sound.meter.n_frames
+    seam = Seam(sound.n_around, n_frames, min(n_frames // 2, round(_SEAM_S * sound.rate)), "linear")
+    yield np.stack([apply_seam(channel, seam.fitted(channel)) for channel in felt.T], axis=1)
 
 
 def _faded_out(blocks: Iterator[Block], n_frames: int) -> Iterator[Block]:

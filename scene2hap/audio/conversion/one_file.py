@@ -26,6 +26,7 @@ from scene2hap.audio.conversion.writing import FORMATS, check_target, opened_for
 from scene2hap.audio.files import Mixdown, opened_sound, written_whole
 from scene2hap.audio.haptic_loop import LevelWarning, Sensation, level_doubt
 from scene2hap.audio.levels import FAINTEST_PEAK_DB, sensation_level_db
+from scene2hap.audio.loop_marks import is_marked_whole, with_loop
 from scene2hap.audio.protocol import (
     ConversionContext,
     TactileConverter,
@@ -53,7 +54,7 @@ class Conversion:
     vibration are only the noise of a recording (`levels.is_noise`), which is not amplified. `frequency_in_hz`
     is the highest peak of the mean power spectrum of all channels, 10 Hz to 20 kHz. `frequency_out_hz` is the peak of
     the vibration that is farthest over the threshold of touch, 10 Hz to 1 kHz, as in a bundle. Both are None for
-    silence. `picture` is None if none was drawn.
+    silence. `picture` is None if none was drawn. `is_loop` : it repeats without a gap.
     """
 
     source: Path
@@ -70,6 +71,7 @@ class Conversion:
     picture: Path | None = None
     level_db: float | None = None
     asked_level_db: float | None = None
+    is_loop: bool = False
 
     @property
     def level_doubt(self) -> str:
@@ -102,6 +104,7 @@ def convert(
     overwrite: bool = False,
     picture: str | Path | None = None,
     raw: bool = False,
+    loop: bool | None = None,
 ) -> Conversion:
     """Convert a sound file to a tactile one of the same length and rate; written whole or not at all.
 
@@ -115,20 +118,26 @@ def convert(
     files that exist.
     picture : a PNG to draw: spectrograms before and after, and both envelopes; raw : apply the converter alone, without
     removal of the offset, equalization and scaling.
+    loop : the sound is a loop of 0.1 to 60 s, and so is the result, which a WAV marks (chunk "smpl"); None if a WAV
+    marks all of itself as one. Otherwise the last 10 ms fade out.
     Warns: LevelWarning: the planned level is missed by more than `NOTICED_DB`, or nothing of the sound is felt.
-    Raises: ConfigError: settings that cannot work. AudioError: `source` cannot be read or holds a sample that is not
-    finite, `output` exists or cannot be written, or the converter changes the length.
+    Raises: ConfigError: settings that cannot work. AudioError: `source` cannot be read, holds a sample that is not
+    finite, or is too short or long for a loop; `output` exists or cannot be written; or the converter changes the
+    length.
     """
     begin = time.perf_counter()
     source, output = Path(source), Path(output)
     built, context = settled(converter, actuator, intensity)
+    if raw and loop:
+        raise ConfigError("raw=True applies the converter alone, so that no loop is closed; leave out raw or loop.")
     drawn = Path(picture) if picture is not None else None
     check_target(source, output, FORMATS, overwrite=overwrite)
     if drawn is not None:
         check_target(source, drawn, [".png"], overwrite=overwrite)
     n_columns = _PICTURE_COLUMNS if drawn else 0
     with opened_sound(source) as file, written_whole(output) as beside:
-        sound = SoundReader(source, file, mono=mono, n_columns=n_columns)
+        is_loop = not raw and (is_marked_whole(source, file.frames, file.samplerate) if loop is None else loop)
+        sound = SoundReader(source, file, mono=mono, n_columns=n_columns, is_loop=is_loop)
         if not raw and getattr(built, "follows_target", False):
             context = _with_own_frequency(sound, context)
         try:
@@ -148,6 +157,8 @@ def convert(
                 is_chosen = follows_anchor(built, context)
                 blocks, level_db = levelled(blocks, sound, context, temporary, is_chosen=is_chosen)
             n_clipped = write_blocks(target, blocks, after, output, beside)
+        if is_loop and target.format == "WAV":
+            beside.write_bytes(with_loop(beside.read_bytes(), 0, after.n_frames, sound.rate))
         if drawn is not None:
             from scene2hap.audio.conversion.picture import draw_conversion
 
@@ -172,6 +183,7 @@ def convert(
         drawn,
         level_db,
         asked_db,
+        is_loop,
     )
     if made.level_doubt:
         warn_of(made.level_doubt, LevelWarning)

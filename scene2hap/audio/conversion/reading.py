@@ -10,8 +10,10 @@ import numpy as np
 import soundfile
 from numpy.typing import NDArray
 
+from scene2hap.audio.conversion.clips import PRE_ROLL_S
 from scene2hap.audio.conversion.meter import Block, Meter
 from scene2hap.audio.files import MAX_SAMPLE, Mixdown, require_finite
+from scene2hap.audio.loop_marks import LONGEST_MARK_S, SHORTEST_MARK_S
 from scene2hap.audio.tactile.sections import through_sections
 from scene2hap.errors import AudioError
 
@@ -29,10 +31,18 @@ class SoundReader:
     Parameters:
     mono : mix the channels by their mean, or take the strongest if they cancel each other in the middle of the file.
     n_columns : points of the meter's envelope.
+    is_loop : the file is a loop, of at most `LONGEST_MARK_S`: it is converted as if it were repeated.
+    Raises: AudioError: a loop that is too short or too long.
     """
 
-    def __init__(self, source: Path, file: soundfile.SoundFile, *, mono: bool, n_columns: int) -> None:
+    def __init__(
+        self, source: Path, file: soundfile.SoundFile, *, mono: bool, n_columns: int, is_loop: bool = False
+    ) -> None:
         self.rate: int = int(file.samplerate)
+        if is_loop:
+            _require_length_of_loop(source, int(file.frames) / self.rate)
+        self.n_around: int = round(PRE_ROLL_S * self.rate) if is_loop else 0
+        """Frames by which `blocks_to_convert` continues the file on both sides, as its repetitions do."""
         self.channels = 1 if mono else int(file.channels)
         self.meter: Meter = Meter(self.rate, self.channels, n_frames=int(file.frames), n_columns=n_columns)
         self._source, self._file, self._mono = source, file, mono
@@ -72,7 +82,9 @@ class SoundReader:
             raise AudioError(f"{self._source} is cut short: {n_read} of {stated} frames. Copy it again.")
 
     def blocks_to_convert(self) -> Iterator[Block]:
-        """Yield `blocks` within full scale, through a high-pass that starts at the offset of the file's beginning.
+        """Yield `blocks` with `n_around` frames on both sides, within full scale and without slow components.
+
+        The high-pass starts at the offset of the file's beginning.
 
         A file that peaks above full scale is scaled down as a whole, since a converter clips such samples. The level of
         the result does not depend on the level of the file.
@@ -84,7 +96,7 @@ class SoundReader:
         self.gain = 1.0 / max(1.0, self._peak())
         section[0, :2] *= self.gain
         state *= self.gain
-        for block in self.blocks():
+        for block in _repeated(self.blocks(), self.n_around) if self.n_around else self.blocks():
             rows = np.ascontiguousarray(block.T, dtype=np.float64)
             yield through_sections(section, rows, state).T.astype(np.float32)
 
@@ -119,3 +131,19 @@ class SoundReader:
             return np.ascontiguousarray(block[:, self._strongest, None])
         mean: Block = block.mean(axis=1, keepdims=True, dtype=np.float32)
         return mean
+
+
+def _repeated(blocks: Iterator[Block], n_around: int) -> Iterator[Block]:
+    """Yield a loop as its repetitions continue it: its last `n_around` frames, all of it, and its first ones."""
+    whole = np.concatenate([*blocks])
+    end = len(whole) + n_around
+    for first in range(-n_around, end, BLOCK_FRAMES):
+        yield whole[np.arange(first, min(first + BLOCK_FRAMES, end)) % len(whole)]
+
+
+def _require_length_of_loop(source: Path, duration_s: float) -> None:
+    if not SHORTEST_MARK_S <= duration_s <= LONGEST_MARK_S:
+        raise AudioError(
+            f"{source} lasts {duration_s:.3g} s; a loop lasts {SHORTEST_MARK_S:g} to {LONGEST_MARK_S:g} s. Convert it "
+            "as a sound that ends (loop=False, --no-loop)."
+        )
