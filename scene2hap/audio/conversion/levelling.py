@@ -15,6 +15,7 @@ from scene2hap.audio.conversion.meter import Block
 from scene2hap.audio.conversion.reading import BLOCK_FRAMES, SoundReader
 from scene2hap.audio.levels import NOTHING_DB, TACTILE_HEADROOM_DB, is_noise, sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.seam import Seam, apply_seam
 from scene2hap.haptics import ActuatorProfile
 
 _END_S = 0.01
@@ -57,8 +58,6 @@ def _scaled(held: IO[bytes], channels: int, gain: float) -> Iterator[Block]:
 
 def _looped(blocks: Iterator[Block], sound: SoundReader) -> Iterator[Block]:
     """Yield a loop without the frames around it; after its end they cross-fade to its beginning."""
-    from scene2hap.audio.loops.seam import Seam, apply_seam  # here, since `audio.loops` imports conversion
-
     felt, n_frames = np.concatenate([*blocks]), sound.meter.n_frames
     seam = Seam(sound.n_around, n_frames, min(n_frames // 2, round(_SEAM_S * sound.rate)), "linear")
     yield np.stack([apply_seam(channel, seam.fitted(channel)) for channel in felt.T], axis=1)

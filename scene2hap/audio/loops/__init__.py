@@ -11,8 +11,8 @@ cycles. `seam` fades them at constant power. `pair` cuts the audible and the tac
 """
 
 from scene2hap.audio.loops.pair import loop_pair, middle_of
-from scene2hap.audio.loops.seam import Seam, apply_seam
 from scene2hap.audio.loops.seam_search import CROSSFADE_S, MAX_LOOP_S, MIN_CLIP_S, find_seam
+from scene2hap.audio.seam import Seam, apply_seam
 
 __all__ = [
     "CROSSFADE_S",

@@ -13,7 +13,6 @@ from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB, is_noise, most_felt_hz
-from scene2hap.audio.loops.seam import Seam, apply_seam
 from scene2hap.audio.loops.seam_search import (
     CROSSFADE_S,
     LEAST_POWER,
@@ -24,6 +23,7 @@ from scene2hap.audio.loops.seam_search import (
 )
 from scene2hap.audio.loops.whole import is_between_silences, meets_itself, whole_loop
 from scene2hap.audio.protocol import ConversionContext, TactileConverter, follows_anchor
+from scene2hap.audio.seam import Seam, apply_seam
 from scene2hap.common import checks
 from scene2hap.errors import AudioError
 

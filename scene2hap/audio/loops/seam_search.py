@@ -25,7 +25,7 @@ import scipy
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap.audio.loops.seam import QUIET, Seam
+from scene2hap.audio.seam import QUIET, Seam
 from scene2hap.audio.spectra.windows import hann
 from scene2hap.common import checks
 from scene2hap.errors import AudioError
