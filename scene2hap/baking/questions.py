@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from scene2hap.baking.config import BakeConfig
-from scene2hap.llm.chain.dry_run import Asked, DryRun, dry_run
+from scene2hap.llm.chain.dry_run import CountedQuestions, DryRun, dry_run
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.wrappers import CacheBackend, identity, innermost
 from scene2hap.scene.snapshot import SceneSnapshot
 
 
 async def count_questions(
-    scene: SceneSnapshot, config: BakeConfig, *, user_prompt: str = "", asked: Asked | None = None
+    scene: SceneSnapshot, config: BakeConfig, *, user_prompt: str = "", counted: CountedQuestions | None = None
 ) -> DryRun:
     """Count the questions about a scene, without those that the cache of the settings can answer.
 
-    `asked` has the questions about other scenes of one run, which the cache will have answered; this scene's are added.
+    `counted` has the questions about other scenes of one run, which the cache will have answered. This scene's are
+    added.
     Raises: ConfigError.
     """
     settings, prices = identity(config.llm), config.prices
@@ -30,5 +31,5 @@ async def count_questions(
         prices=prices,
         service_tier=getattr(innermost(config.llm), "service_tier", ""),
         cache=config.llm if isinstance(config.llm, CacheBackend) else None,
-        asked=asked,
+        counted=counted,
     )

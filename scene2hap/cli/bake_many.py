@@ -97,20 +97,20 @@ def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console
         )
     rows = []
     for one in plans:
-        asked = one.questions
-        calls = ("-", "-", "-") if asked is None else (str(asked.n_calls), str(asked.kept), _shown(asked.cost_usd))
+        run = one.questions
+        calls = ("-", "-", "-") if run is None else (str(run.n_calls), str(run.kept), _shown(run.cost_usd))
         rows.append((Path(one.bundle).stem, str(one), str(one.n_objects or "-"), *calls))
     console.table("what would be done", ("scene", "plan", ">objects", ">calls", ">from cache", ">about $"), rows)
     for one in plans:
         if one.error:
             console.fail(f"{one.scene}: {one.error}")
-    counts = ", ".join(f"{n} to {plan}" for plan, n in Counter(map(str, plans)).items())
-    found = [one.questions for one in plans if one.questions is not None]
-    costs = [asked.cost_usd for asked in found]
+    plan = ", ".join(f"{n} to {what}" for what, n in Counter(map(str, plans)).items())
+    runs = [one.questions for one in plans if one.questions is not None]
+    costs = [run.cost_usd for run in runs]
     cost = None if None in costs else sum(cost for cost in costs if cost is not None)
-    n_calls, n_kept = sum(asked.n_calls for asked in found), sum(asked.kept for asked in found)
-    told = f"{counted(n_calls, 'call')}, {n_kept} in the cache, about {_shown(cost)} dollars"
-    console.say(f"{counted(len(plans), 'scene')}: {counts}{f'; {told}' if found else ''}")
+    n_calls, n_kept = sum(run.n_calls for run in runs), sum(run.kept for run in runs)
+    questions = f"; {counted(n_calls, 'call')}, {n_kept} in the cache, about {_shown(cost)} dollars" if runs else ""
+    console.say(f"{counted(len(plans), 'scene')}: {plan}{questions}")
     return {"calls": n_calls, "calls_kept": n_kept, "cost_usd": cost, "scenes": [one.to_data() for one in plans]}
 
 

@@ -17,7 +17,7 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes, clear_call
 from scene2hap.common.run_coroutine import run_waiting
 from scene2hap.errors import ConfigError, Scene2HapError
-from scene2hap.llm.chain.dry_run import Asked, DryRun
+from scene2hap.llm.chain.dry_run import CountedQuestions, DryRun
 from scene2hap.llm.wrappers import is_remote
 from scene2hap.scene.capture import capture_images
 from scene2hap.scene.load import load_scene
@@ -44,9 +44,9 @@ class ScenePlan:
 
     def to_data(self) -> dict[str, Any]:
         """Return plain data, for JSON."""
-        asked = None if self.questions is None else self.questions.as_json()
+        questions = None if self.questions is None else self.questions.as_json()
         paths = {"scene": Path(self.scene).as_posix(), "bundle": Path(self.bundle).as_posix()}
-        return {"plan": self.plan, "n_objects": self.n_objects, "error": self.error, **paths, "questions": asked}
+        return {"plan": self.plan, "n_objects": self.n_objects, "error": self.error, **paths, "questions": questions}
 
 
 @clear_call
@@ -82,7 +82,7 @@ async def _planned(
     progress: Progress | None,
 ) -> list[ScenePlan]:
     paths, place = scene_paths(scenes), checks.path("folder", folder, error=ConfigError)
-    asked: Asked = {}
+    counted: CountedQuestions = {}
     turn = asyncio.Lock()  # one scene after the other, so that a shared question counts for the first of them
     with Pool(None) as pool:
         run = Run(paths, place, config, config, dict(options or {}), user_prompt, pool, pictures, progress)
@@ -102,8 +102,8 @@ async def _planned(
                 if not is_remote(config.llm):
                     return ScenePlan(str(path), target, "bake", n)
                 seen = capture_images(scene, alone=config.share_scenes) if pictures else scene
-                counted = await count_questions(seen, config, user_prompt=user_prompt, asked=asked)
-                return ScenePlan(str(path), target, "bake", n, counted)
+                found = await count_questions(seen, config, user_prompt=user_prompt, counted=counted)
+                return ScenePlan(str(path), target, "bake", n, found)
             except (Scene2HapError, OSError) as problem:
                 return ScenePlan(str(path), target, "fail", error=f"{type(problem).__name__}: {problem}")
 

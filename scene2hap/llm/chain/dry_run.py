@@ -35,7 +35,7 @@ _ANSWER_TOKENS: Mapping[Component, int] = {
 }
 """Assumed: lengths of good answers. Reasoning models write several times as much."""
 
-Asked = dict[str, LLMReply]
+CountedQuestions = dict[str, LLMReply]
 """Questions that a dry run has counted, by `request_key`, with the answers that it assumed."""
 
 _PICTURE_PX = 512
@@ -102,16 +102,16 @@ async def dry_run(
     prices: Mapping[str, Price | Given] | None = None,
     service_tier: str = "",
     cache: CacheBackend | None = None,
-    asked: Asked | None = None,
+    counted: CountedQuestions | None = None,
 ) -> DryRun:
     """Count the questions that `infer_scene` would send to `model` for a scene, and estimate their cost.
 
     `size_px` is the edge of each picture, `detail` its level of detail. `prices` override the dated list.
-    `service_tier` is the billed tier, "" for the standard one. `cache` has earlier answers, and `asked` the questions
-    that were counted before, to which those of this scene are added; with a cache they are asked once.
+    `service_tier` is the billed tier, "" for the standard one. `cache` has earlier answers, and `counted` the questions
+    that were counted before, to which those of this scene are added; with a cache each is sent once.
     Raises: ConfigError.
     """
-    counter = _Counter(cache, {} if asked is None else asked)
+    counter = _Counter(cache, {} if counted is None else counted)
     inference = await infer_scene(scene, counter, user_prompt=user_prompt, config=config)
     known_prices = price_list(prices)
     per_image = image_tokens(model, size_px, detail)
@@ -159,7 +159,7 @@ class _Counter:
     """
 
     cache: CacheBackend | None
-    asked: Asked
+    counted: CountedQuestions
     calls: Counter[Component] = field(default_factory=Counter)
     kept: int = 0
     images: int = 0
@@ -170,10 +170,10 @@ class _Counter:
         if self.cache is None or request.images:
             return await self._counted(request)
         key = request_key(request)
-        known = self.cache.stored(request) or self.asked.get(key)
+        known = self.cache.stored(request) or self.counted.get(key)
         self.kept += known is not None
-        self.asked[key] = known or await self._counted(request)
-        return self.asked[key]
+        self.counted[key] = known or await self._counted(request)
+        return self.counted[key]
 
     async def _counted(self, request: LLMRequest) -> LLMReply:
         self.calls[request.component] += 1
