@@ -101,7 +101,6 @@ def take(bundle: HapticBundle, name: str, config: BakeConfig, seed: int) -> Audi
     haptics, loop = bundle.objects[name], next(iter(bundle.loops[name].values()))
     felt, state = loop.felt, haptics.states[0]
     assert felt is not None
-    assert felt.target_hz is not None
     assert loop.source is not None
     clip = Synthesizer().find(
         VibrationDescription(
@@ -119,11 +118,12 @@ def take(bundle: HapticBundle, name: str, config: BakeConfig, seed: int) -> Audi
     stays, anchor = (anchor_of(x.samples, x.sample_rate_hz, level_db, config.actuator) for x in (loop.source, clip))
     assert stays is not None
     assert anchor is not None
+    moved = 1.0 if felt.target_hz is None else felt.target_hz / stays.felt_hz  # a fixed filter moves nothing
     context = ConversionContext(
         config.actuator,
         state.intensity,
         own_hz=anchor.frequency_hz,
-        target_hz=anchor.felt_hz * felt.target_hz / stays.felt_hz,
+        target_hz=anchor.felt_hz * moved,
         rough_hz=anchor.rough_hz,
     )
     return felt_loop(clip, config.tactile, Plan(context, felt.asked_level_db)).tactile
