@@ -8,28 +8,63 @@ from scene2hap.audio.tactile import following
 
 cdef double FREE_DB = following.FREE_DB, HEADROOM_DB = following.HEADROOM_DB, FORGET = following.FORGET
 cdef double MOST_LIFTED_DB = following.MOST_LIFTED_DB, MOST_LOWERED_DB = following.MOST_LOWERED_DB
-cdef double NOTHING = following.NOTHING
+cdef double NOTHING = following.NOTHING, CHANGED = following.CHANGED
 
 
-def gains_of(const double[:, ::1] energies, const double[::1] window, double usual_db, double[::1] means):
-    cdef Py_ssize_t k, size = window.shape[0], n = energies.shape[1] - size + 1
-    cdef double sound, bed, beyond, lift, most = MOST_LIFTED_DB, usual = usual_db
+cdef struct Lift:
+    double needed
+    double most
+
+
+def gains_of(
+    const double[:, ::1] energies,
+    const double[::1] window,
+    Py_ssize_t n_ahead,
+    double usual_db,
+    double[::1] means,
+):
+    cdef Py_ssize_t i, k, size = window.shape[0], n = energies.shape[1] - size + 1, n_bands = energies.shape[0]
+    cdef Py_ssize_t middle = size - n_ahead
+    cdef double before[3]
+    cdef double after[3]
+    cdef double levels[3]
+    cdef double early, late, now, usual = usual_db
+    cdef bint is_late
+    cdef Lift lift
     found = np.empty((2, n))
     cdef double[:, ::1] gains = found
     for k in range(n):
-        sound, bed = weighted(&energies[0, k], &window[0], size), weighted(&energies[1, k], &window[0], size)
-        if energies.shape[0] == 3:
-            most = max(-MOST_LOWERED_DB, min(HEADROOM_DB - ratio_db(sound, bed), MOST_LIFTED_DB))
-            bed = weighted(&energies[2, k], &window[0], size)
+        for i in range(n_bands):
+            before[i], after[i] = weighted(&energies[i, k], &window[0], middle), 0.0
+            if n_ahead:
+                after[i] = weighted(&energies[i, k + middle], &window[middle], n_ahead)
+            levels[i] = before[i] + after[i]
         if isnan(usual_db):
-            usual = ratio_db(mean_of(sound, &means[0]), mean_of(bed, &means[1]))
-        beyond = ratio_db(sound, bed) - usual
-        lift = max(-FREE_DB, min(beyond, FREE_DB)) - beyond
-        gains[0, k] = pow(10.0, max(-MOST_LOWERED_DB, min(lift, most)) / 20.0)
+            usual = ratio_db(mean_of(levels[0], &means[0]), mean_of(levels[n_bands - 1], &means[1]))
+        lift = lifted(levels, n_bands, usual)
         gains[1, k] = 0.0
-        if lift > most:
-            gains[1, k] = sqrt(2.0 * (bed + NOTHING) * (pow(10.0, lift / 10.0) - pow(10.0, most / 10.0)))
+        if lift.needed > lift.most:
+            gains[1, k] = sqrt(
+                2.0 * (levels[n_bands - 1] + NOTHING) * (pow(10.0, lift.needed / 10.0) - pow(10.0, lift.most / 10.0))
+            )
+        if n_ahead:
+            early, late = before[0] + NOTHING, after[0] + NOTHING
+            if max(early, late) > CHANGED * min(early, late):
+                now = 0.25 * (energies[0, k + middle - 1] + energies[0, k + middle]) + NOTHING
+                is_late = (now * now > early * late) == (late > early)
+                lift = lifted(&after[0] if is_late else &before[0], n_bands, usual)
+        gains[0, k] = pow(10.0, max(-MOST_LOWERED_DB, min(lift.needed, lift.most)) / 20.0)
     return found
+
+
+cdef Lift lifted(const double* levels, Py_ssize_t n_bands, double usual) noexcept nogil:
+    """Return the gain that a bed needs, and the largest it may have [dB]."""
+    cdef double beyond = ratio_db(levels[0], levels[n_bands - 1]) - usual
+    cdef Lift lift
+    lift.needed, lift.most = max(-FREE_DB, min(beyond, FREE_DB)) - beyond, MOST_LIFTED_DB
+    if n_bands == 3:
+        lift.most = max(-MOST_LOWERED_DB, min(HEADROOM_DB - ratio_db(levels[0], levels[1]), MOST_LIFTED_DB))
+    return lift
 
 
 cdef double weighted(const double* energies, const double* window, Py_ssize_t n) noexcept nogil:

@@ -6,8 +6,12 @@ the whole sound; if it is unknown, M is the mean of their difference over two se
 
     difference d = L_bed - L_sound        gain -(d - M) + sign(d - M) `FREE_DB`   where |d - M| > `FREE_DB`, else 0 dB
 
-A bed within `FREE_DB` is unchanged, bit for bit. The stage has a latency of 40 ms. A live stream has no time for
+A bed within `FREE_DB` is unchanged, bit for bit. The stage has a latency of 35 ms. A live stream has no time for
 it: its levels are those of the last 60 ms, weighted towards the present.
+
+A window of 60 ms would smooth the sudden beginning of a syllable. Where the sound changes by `CHANGED` from one half of
+the window to the other, the gain follows from the half on its own side of the change. Shorter windows everywhere would
+flatten beats of 20 Hz and more, by which machines are told apart.
 
 If the motion of a resonant actuator for its drive is known (`rendered`), L_bed is the level of this motion. A band
 beside the resonance is amplified as far as `HEADROOM_DB` allows, and the sine at the resonance supplies the rest.
@@ -17,6 +21,9 @@ plays alone. If M and the frequency at which the sound is felt are known, a sine
 that is missing, so that the rise and fall of the whole sound is felt:
 
     a = sqrt(2 E_bed (10^(lift / 10) - 10^(`MOST_LIFTED_DB` / 10)))      lift: the gain that is needed [dB]
+
+It follows from the whole window. A bed comes some 20 ms after its sound, so that a half window would begin each sound
+with the sine. The equalizer of a resonant actuator amplifies its sharp front, which would use up the head-room.
 """
 
 from __future__ import annotations
@@ -34,12 +41,15 @@ from scene2hap.audio.tactile.stages import Signal, Stage
 from scene2hap.audio.tactile.step_energies import StepEnergies
 from scene2hap.compiled import compiled
 
-STEP_S = 0.01
+STEP_S = 0.005
+CHANGED = 2.5
+"""Ratio of the energies in both halves of a window at which the sound changes suddenly [-] (4 dB; assumed). Beats and
+noise of most machines stay below it."""
 FREE_DB = 0.5
 """Deviation that stays uncorrected [dB]; twice this is below the 2.5 dB that touch notices."""
 MOST_LIFTED_DB, MOST_LOWERED_DB = 15.0, 20.0
 """Largest gain and attenuation [dB]; a weaker bed is mostly noise (assumed)."""
-_STEPS, _AHEAD = 6, 3
+_STEPS, _AHEAD = 12, 6
 """Steps of a window, and those of them that lie ahead of the gain."""
 _LIVE_STEPS = 24
 """Steps of a live window. They are as long as those of the stage of onsets, which gives whole steps, so that the
@@ -106,7 +116,8 @@ class LevelFollower(Stage):
         n = self._energies.shape[1] - len(self._window) + 1
         if n < 1:
             return np.empty(0)
-        found = gains_of(self._energies, self._window, np.nan if self._bed_db is None else self._bed_db, self._means)
+        usual_db = np.nan if self._bed_db is None else self._bed_db
+        found = gains_of(self._energies, self._window, self._n_ahead, usual_db, self._means)
         gains = np.concatenate([self._gains, found], axis=1)
         if self._gains.size == 0:
             gains[1, 0] = 0.0  # a sine that begins at once clicks
@@ -126,27 +137,44 @@ class LevelFollower(Stage):
 
 
 @compiled
-def gains_of(energies: Signal, window: Signal, usual_db: float, means: Signal) -> Signal:
+def gains_of(energies: Signal, window: Signal, n_ahead: int, usual_db: float, means: Signal) -> Signal:
     """Return the gains of bed and sine at the beginnings of n steps (2, n), each from its window.
 
     Parameters: energies : of sound, bed and rendered bed, if it differs, by steps (2 or 3, n + len(window) - 1);
-    usual_db : M, nan if unknown; means : the filtered energies of sound and bed (2,), updated by this function.
+    n_ahead : steps of the window after the gain, half of them, or 0 for a live stream; usual_db : M, nan if unknown;
+    means : the filtered energies of sound and bed (2,), updated by this function.
     """
     # Sums of windows one by one, since the rounding of a convolution depends on the block size.
-    sound, drive, *felt = (sliding_window_view(energies, len(window), axis=1) * window).sum(axis=2)
-    bed = felt[0] if felt else drive
+    steps = sliding_window_view(energies, len(window), axis=1)
+    weighted, middle = steps * window, len(window) - n_ahead
+    before, after = weighted[..., :middle].sum(axis=2), weighted[..., middle:].sum(axis=2)
+    levels = before + after
+    sound, bed = levels[0], levels[-1]
     usual: Signal | float = usual_db
     if math.isnan(usual_db):
         slow, left = scipy.signal.lfilter([1.0 - FORGET], [1.0, -FORGET], [sound, bed], axis=1, zi=means[:, None])
         usual, means[:] = _ratio_db(*slow), left[:, 0]
-    beyond = _ratio_db(sound, bed) - usual
-    lifts = np.clip(beyond, -FREE_DB, FREE_DB) - beyond
-    most = np.full(len(bed), MOST_LIFTED_DB)
-    if felt:
-        most = np.clip(HEADROOM_DB - _ratio_db(sound, drive), -MOST_LOWERED_DB, MOST_LIFTED_DB)
-    gains = 10.0 ** (np.clip(lifts, -MOST_LOWERED_DB, most) / 20.0)
+    lifts, most = _lifts(levels, usual)
     lacking = 10.0 ** (np.maximum(lifts, most) / 10.0) - 10.0 ** (most / 10.0)
+    if n_ahead:
+        early, late = before[0] + NOTHING, after[0] + NOTHING
+        changes = np.maximum(early, late) > CHANGED * np.minimum(early, late)
+        # The side of the change on which the gain lies; a half has half of the window's weight.
+        now = 0.25 * (steps[0, :, middle - 1] + steps[0, :, middle]) + NOTHING
+        is_late = (now**2 > early * late) == (late > early)
+        lifts, most = np.where(changes, _lifts(np.where(is_late, after, before), usual), (lifts, most))
+    gains = 10.0 ** (np.clip(lifts, -MOST_LOWERED_DB, most) / 20.0)
     return np.stack([gains, np.sqrt(2.0 * (bed + NOTHING) * lacking)])
+
+
+def _lifts(levels: Signal, usual: Signal | float) -> tuple[Signal, Signal]:
+    """Return the gains that beds need, and the largest they may have [dB]; levels : energies as in `gains_of`."""
+    sound, drive, bed = levels[0], levels[1], levels[-1]
+    beyond = _ratio_db(sound, bed) - usual
+    most = np.full(len(bed), MOST_LIFTED_DB)
+    if len(levels) > 2:
+        most = np.clip(HEADROOM_DB - _ratio_db(sound, drive), -MOST_LOWERED_DB, MOST_LIFTED_DB)
+    return np.clip(beyond, -FREE_DB, FREE_DB) - beyond, most
 
 
 def _ratio_db(sound: Signal, bed: Signal) -> Signal:
