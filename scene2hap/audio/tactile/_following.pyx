@@ -28,7 +28,7 @@ def gains_of(
     cdef double before[3]
     cdef double after[3]
     cdef double levels[3]
-    cdef double early, late, now, usual = usual_db
+    cdef double early, late, now, most, usual = usual_db
     cdef bint is_late
     cdef Lift lift
     found = np.empty((2, n))
@@ -52,7 +52,9 @@ def gains_of(
             if max(early, late) > CHANGED * min(early, late):
                 now = 0.25 * (energies[0, k + middle - 1] + energies[0, k + middle]) + NOTHING
                 is_late = (now * now > early * late) == (late > early)
+                most = lift.most
                 lift = lifted(&after[0] if is_late else &before[0], n_bands, usual)
+                lift.most = min(lift.most, most)
         gains[0, k] = pow(10.0, max(-MOST_LOWERED_DB, min(lift.needed, lift.most)) / 20.0)
     return found
 

@@ -162,7 +162,9 @@ def gains_of(energies: Signal, window: Signal, n_ahead: int, usual_db: float, me
         # The side of the change on which the gain lies; a half has half of the window's weight.
         now = 0.25 * (steps[0, :, middle - 1] + steps[0, :, middle]) + NOTHING
         is_late = (now**2 > early * late) == (late > early)
-        lifts, most = np.where(changes, _lifts(np.where(is_late, after, before), usual), (lifts, most))
+        own_lifts, own_most = _lifts(np.where(is_late, after, before), usual)
+        # Half a window may end before the drive begins, so that it seems weak: the head-room is that of the whole one.
+        lifts, most = np.where(changes, (own_lifts, np.minimum(own_most, most)), (lifts, most))
     gains = 10.0 ** (np.clip(lifts, -MOST_LOWERED_DB, most) / 20.0)
     return np.stack([gains, np.sqrt(2.0 * (bed + NOTHING) * lacking)])
 
