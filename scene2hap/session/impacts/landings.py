@@ -20,9 +20,8 @@ from typing import NamedTuple
 
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
-from scene2hap.contact.rule import TOUCH_M
 from scene2hap.scene.geometry import Vector, difference, dot
-from scene2hap.scene.pose import Pose, in_own
+from scene2hap.scene.pose import Pose
 from scene2hap.session.impacts.approaches import NO_JUNCTIONS, Approach, Approaches
 from scene2hap.session.impacts.closing_speed import ClosingSpeed
 from scene2hap.session.impacts.motion_track import (
@@ -90,11 +89,11 @@ class Landings:
         period_s: float,
         up_axis: int,
     ) -> None:
-        self._graph, self._middle_m, self._half_m = graph, middle_m, half_m
+        self._graph, self._middle_m = graph, middle_m
         self._period_s = period_s
         self._motion = RelativeMotion(graph)
         self._closing = ClosingSpeed(self._motion, period_s, up_axis)
-        self._approaches = Approaches(graph, self._motion, slam, drawer)
+        self._approaches = Approaches(graph, self._motion, half_m, slam, drawer)
         self._near: dict[str, dict[str, Junction]] = {}
         """Contacts of each moving object before the present step, and in all of its updates but the last."""
         self._moved: dict[str, None] = {}
@@ -254,7 +253,7 @@ class Landings:
             closing = dot(came, normal)
             if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
                 # Physics may be slower than the frames, and miss one: has it stopped in mid air?
-                if has_just_stopped and not (one.is_seen and self._is_at(object_id, track, point, normal)):
+                if has_just_stopped and not (one.is_seen and self._approaches.is_reached(object_id, point, normal)):
                     continue
                 step = dot(self._motion.nearing_m(object_id, other, point, before, last), normal)
                 onward = dot(self._motion.nearing_m(object_id, other, point, last, now), normal)
@@ -268,18 +267,6 @@ class Landings:
                     speed = self._closing.speed(object_id, other, point, normal, runs, onward, time_s)
                     best, most_m = Landing(object_id, other, point, speed), closing
         return best
-
-    def _is_at(self, object_id: str, track: MotionTrack, point_m: Vector, normal: Vector) -> bool:
-        """Whether an object reaches a contact.
-
-        The point of a contact is half way between the two surfaces. The box around the object reaches at least as far
-        as its own.
-        """
-        pose = self._graph.pose(object_id)
-        (x, y, z), (u, v, w) = normal, pose.position_m
-        own_normal = in_own((u + x, v + y, w + z), pose)
-        reach_m = sum(abs(part) * half for part, half in zip(own_normal, self._half_m(object_id), strict=True))
-        return 2 * (dot(difference(point_m, track.middle_m), normal) - reach_m) <= TOUCH_M
 
     def _stops_suddenly(
         self, object_id: str, other: str, point_m: Vector, normal: Vector, run: list[tuple[int, float]]

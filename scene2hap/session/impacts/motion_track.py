@@ -27,6 +27,11 @@ UNEVEN = 3
 """Largest ratio of two gaps of slow physics: at 60 Hz, physics at 30 Hz has a step in every second frame, or after one
 and three if these are uneven. A longer gap was a hold."""
 
+JUMP, JUMP_M_S2 = 10.0, 30.0
+"""A step that is so many times as long as the one before, by more than such an acceleration, or as the one after, is a
+jump: a teleport between the trembling of a tracker. A fall in two or three frames also has steps of very unequal
+length, but by gravity alone; this is three times gravity, since clocks of games are uneven."""
+
 STILL: Vector = (0.0, 0.0, 0.0)
 """The step of an object that does not move [m]."""
 
@@ -122,7 +127,10 @@ class MotionTrack:
             if LEFT * before < onward < before / LEFT:
                 gap = min(max(gap, waited), UNEVEN * waited)
             self.gap = gap if gap > 1.0 else 1.0
-            if onward <= 0:
+            here = x * x + y * y + z * z
+            jumps = here > JUMP**2 * before and here > (JUMP_M_S2 * (time_s - last_s) ** 2) ** 2 > 0
+            jumped = self.n_steps == 1 and JUMP * onward < before
+            if onward <= 0 or jumps or jumped:
                 stopped_m = self.stopped_m
                 self.turn(last)
                 self.goes_on = stopped_m is not None and dot(step_m, stopped_m) > LEFT * dot(stopped_m, stopped_m)
