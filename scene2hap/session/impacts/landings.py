@@ -44,6 +44,9 @@ HEAD_ON = 0.5
 BRAKES_M_S2, BRAKES_M_S = 10.0, 0.2
 """Largest deceleration by a hand that carries, lowers or shakes an object, and largest loss of speed by a hand from one
 step to the next; assumed. Below 50 Hz the latter is the smaller bound, since a short fall lasts for few frames."""
+TREMBLES, TREMBLES_M_S = 3.5, 0.25
+"""Largest loss of speed by the noise of a tracker, as standard deviations of a place per step, and in m/s. With 3 more
+false landings are found, with 5 no fall from 1 cm is."""
 WHOLE = 1.5
 """Slowest landing, as a multiple of this loss. One that is slower would be found or not by the time in a frame at which
 the objects meet."""
@@ -280,11 +283,15 @@ class Landings:
             steps.append((came_m / lasts_s, lasts_s))
         fastest, stands_still = 0.0, steps[-1][0] == 0
         for i, ((speed, lasted_s), (now, lasts_s)) in enumerate(pairwise(steps), 3):
-            most = min(BRAKES_M_S2 * (lasted_s + lasts_s) / 2, BRAKES_M_S)
+            between_s = (lasted_s + lasts_s) / 2
             fastest = max(fastest, speed)
             is_last_whole = i == len(steps) and stands_still
-            if fastest > WHOLE * most and (speed - now > most or (is_last_whole and speed > WHOLE * most)):
-                return True
+            largest = min(fastest / WHOLE, max(speed - now, speed / WHOLE if is_last_whole else 0.0))
+            most = min(BRAKES_M_S2 * between_s, BRAKES_M_S)
+            if largest > most:
+                trembles_m = self._motion.tracks[object_id].trembles_m(normal)
+                if largest > most + min(TREMBLES * trembles_m / between_s, TREMBLES_M_S):
+                    return True
         return False
 
 
