@@ -50,7 +50,7 @@ def add_many_arguments(parser: argparse.ArgumentParser, n_scenes: str) -> None:
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Bake, and show the outcome of each scene. Raises: SceneError: some were not baked."""
+    """Bake, and show the outcome of each scene. Raises: SceneError: some were not baked, or cannot be."""
     config = BakeConfig.parse(many_settings(arguments))
     if arguments.dry_run:
         return _dry_run(arguments, config, console)
@@ -111,7 +111,12 @@ def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console
     n_calls, n_kept = sum(run.n_calls for run in runs), sum(run.kept for run in runs)
     questions = f"; {counted(n_calls, 'call')}, {n_kept} in the cache, about {_shown(cost)} dollars" if runs else ""
     console.say(f"{counted(len(plans), 'scene')}: {plan}{questions}")
-    return {"calls": n_calls, "calls_kept": n_kept, "cost_usd": cost, "scenes": [one.to_data() for one in plans]}
+    outcome = {"calls": n_calls, "calls_kept": n_kept, "cost_usd": cost, "scenes": [one.to_data() for one in plans]}
+    if failing := sum(one.plan == "fail" for one in plans):
+        if arguments.json:
+            console.outcome(outcome)
+        raise SceneError(f"{failing} of {counted(len(plans), 'scene')} cannot be baked.")
+    return outcome
 
 
 def many_settings(arguments: argparse.Namespace) -> dict[str, Any]:

@@ -283,13 +283,14 @@ def _checked_channels(channels: Mapping[str, int] | Sequence[int] | None) -> Map
     given = channels.values() if isinstance(channels, Mapping) else channels
     numbers = checks.items("channels", given, error=ConfigError)
     for number in numbers:
-        if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= 256:
+        if isinstance(number, bool) or not isinstance(number, int | np.integer) or not 1 <= number <= 256:
             raise ConfigError(
                 f"channels has {checks.represented(number)}; a channel is a whole number, 1 for a card's first."
             )
     if len(set(numbers)) < len(numbers):
         raise ConfigError(f"channels is {checks.represented(channels)}; each hand needs a channel of its own.")
-    return dict(channels) if isinstance(channels, Mapping) else numbers
+    whole = tuple(map(int, numbers))
+    return dict(zip(channels, whole, strict=True)) if isinstance(channels, Mapping) else whole
 
 
 def _checked_count(n_channels: int | None) -> int | None:

@@ -52,13 +52,18 @@ def given_frame(moved: object, touches: Any) -> tuple[Mapping[str, Pose] | None,
     Other mappings become dicts, since a `PoseTable` makes a pose at each access.
     Raises: SessionError: the first argument is neither poses by id nor touches.
     """
-    if isinstance(moved, Mapping):
-        return dict(moved), touches
     is_touches = isinstance(moved, Touch) or (
         isinstance(moved, list | tuple) and all(isinstance(one, Touch) for one in moved)
     )
     if is_touches and (touches is None or (isinstance(touches, list | tuple) and not touches)):
         return None, given_touches(moved)
+    return given_poses(moved), touches
+
+
+def given_poses(moved: object) -> dict[str, Pose]:
+    """Return moved objects as a dict, without a check of their poses. Raises: SessionError: it is no mapping."""
+    if isinstance(moved, Mapping):
+        return dict(moved)
     raise SessionError(
         f"moved is {checks.described(moved)}; it must be a mapping of object ids to poses, as {{'mug': Pose(...)}}. "
         f"Touches go by name: update(touches=[{_TOUCH}])."
@@ -101,7 +106,7 @@ def _refuse_touches(verb: str, given: object) -> NoReturn:
 
 
 def given_points(points_m: object, hands: Sequence[str]) -> dict[str, Floats]:
-    """Return the tracked points (n, 3) [m] of each hand. A hand may have one point, or None while it is not tracked.
+    """Return the tracked points (n, 3) [m] of each hand. A hand may have one point, and none while it is not tracked.
 
     Raises: SessionError: an unknown hand; points of another shape, not finite, or more than `MAX_POINTS`.
     """
@@ -115,6 +120,8 @@ def given_points(points_m: object, hands: Sequence[str]) -> dict[str, Floats]:
             continue
         name = f"points_m[{hand!r}]"
         points = np.atleast_2d(checks.floats(name, given, "m", error=SessionError))
+        if np.shape(given) == (0,):
+            continue  # a list of the tracked points that none is in
         if points.ndim != 2 or points.shape[1] != 3 or len(points) > MAX_POINTS:
             raise SessionError(f"{name} has shape {np.shape(given)}; it must be (3,) or (n, 3) [m], n <= {MAX_POINTS}.")
         if not np.isfinite(points).all():

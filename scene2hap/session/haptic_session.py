@@ -40,6 +40,7 @@ from scene2hap.session.arguments import (
     given_frame,
     given_frames,
     given_points,
+    given_poses,
     given_stamp,
     given_strike,
     given_touches,
@@ -248,16 +249,18 @@ class HapticSession:
         the point is inside, behind the nearest face. The touch is at the nearest point of the surface. An object that
         the hand touched at the last update is touched up to 1.5 times these distances, so that a finger at the limit
         does not start and stop to touch with the noise of its tracker.
-        Parameters: points_m : for each hand its points (n, 3) or one point (3,) in the world [m], None while the hand
-        is not tracked; moved : poses that the next update will get, by id.
+        Parameters: points_m : for each hand its points (n, 3) or one point (3,) in the world [m], None or an empty list
+        while the hand is not tracked; moved : poses that the next update will get, by id.
         Raises: SessionError: an unknown hand, points that are not finite or of another shape, a distance below 0 or
-        above 1 m; UnknownObject: a moved object is not in the scene; SceneError: another type than a pose.
+        above 1 m, or moved is no mapping; UnknownObject: a moved object is not in the scene; SceneError: another type
+        than a pose.
         """
         points = given_points(points_m, self._hands)
         within_m = checks.number("within_m", within_m, "m", at_least=0.0, at_most=1.0, error=SessionError)
         depth_m = checks.number("depth_m", depth_m, "m", at_least=0.0, at_most=1.0, error=SessionError)
         poses = self._state.poses
-        if moved:
+        if moved is not None:
+            moved = given_poses(moved)
             for object_id, pose in moved.items():
                 self._state.require(object_id)
                 require_pose(object_id, pose)

@@ -246,6 +246,24 @@ def test_the_command_shows_a_plan(scenes: list[Path], tmp_path: Path, capsys: py
     assert not (tmp_path / "out").exists()
 
 
+def test_a_plan_with_a_scene_that_cannot_be_baked_ends_with_status_1(
+    scenes: list[Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "broken.glb").write_bytes(b"junk")
+    command = ["bake-many", str(scenes[0]), str(tmp_path / "broken.glb"), "-o", str(tmp_path / "out"), "--dry-run"]
+    assert main([*command, "--json"]) == 1
+    told = capsys.readouterr()
+    assert [one["plan"] for one in json.loads(told.out)["scenes"]] == ["bake", "fail"]
+    assert "1 of 2 scenes cannot be baked." in told.err
+
+
+@pytest.mark.parametrize("given", [None, 3])
+def test_scenes_of_another_type_are_refused(given: Any, tmp_path: Path) -> None:
+    for make in (bake_many, plan_many):
+        with pytest.raises(ConfigError, match=f"scenes is {given}; it must be a sequence"):
+            make(given, tmp_path)
+
+
 def test_a_model_reads_the_name_that_a_person_gave(plain: None, tmp_path: Path) -> None:
     (scene,) = write_scenes(tmp_path / "scenes", 1)
     target = tmp_path / "out" / "room_0.bundle"

@@ -139,11 +139,16 @@ async def abake_many(
         return await run.all()
 
 
+MOST_SCENES = 10_000_000
+"""Bound on the scenes of a run, which only an endless generator exceeds."""
+
+
 def scene_paths(scenes: Iterable[str | os.PathLike[str]]) -> list[Path]:
-    """Return the scene files as paths. Raises: ConfigError: the list is empty, or is a single path."""
+    """Return the scene files as paths. Raises: ConfigError: the list is empty, a single path, or no list."""
     if isinstance(scenes, str | os.PathLike):
         raise ConfigError(f"scenes is the path {quoted(scenes)}; give a list of paths, as sorted(Path(...).glob(...)).")
-    paths = [checks.path(f"scenes[{i}]", scene, error=ConfigError) for i, scene in enumerate(scenes)]
+    given = checks.items("scenes", scenes, at_most=MOST_SCENES, error=ConfigError)
+    paths = [checks.path(f"scenes[{i}]", scene, error=ConfigError) for i, scene in enumerate(given)]
     if not paths:
         raise ConfigError("scenes is empty; name at least one scene file.")
     return paths

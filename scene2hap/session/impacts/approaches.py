@@ -13,8 +13,9 @@ from typing import NamedTuple
 
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
+from scene2hap.contact.rule import TOUCH_M
 from scene2hap.scene.geometry import Vector, cross, difference, dot
-from scene2hap.scene.pose import in_world
+from scene2hap.scene.pose import in_own, in_world
 from scene2hap.session.impacts.motion_track import LEAST_TRAVEL_M, STILL
 from scene2hap.session.impacts.relative_motion import RelativeMotion
 from scene2hap.session.impacts.slams import RelativePoses, Slam
@@ -44,18 +45,19 @@ class Approach(NamedTuple):
 class Approaches:
     """Lists the approaches of an object between two updates.
 
-    Parameters: slam : what an object on a hinge may slam against; drawer : the test whether an object is a drawer that
-    is shut, None if another does not enclose it.
+    Parameters: half_m : half the sides of the box around an object [m]; slam : what an object on a hinge may slam
+    against; drawer : the test whether an object is a drawer that is shut, None if another does not enclose it.
     """
 
     def __init__(
         self,
         graph: ContactGraph,
         motion: RelativeMotion,
+        half_m: Callable[[str], Vector],
         slam: Callable[[str, Callable[[str], RelativePoses]], Slam | None],
         drawer: Callable[[str, str], Callable[[RelativePoses], bool] | None],
     ) -> None:
-        self._graph, self._motion, self._slam, self._drawer = graph, motion, slam, drawer
+        self._graph, self._motion, self._half_m, self._slam, self._drawer = graph, motion, half_m, slam, drawer
 
     def at_contacts(self, object_id: str, met: Mapping[str, Junction], between: tuple[int, int]) -> Iterator[Approach]:
         """Approaches at the present and former contacts of an object, and at its edge if a hinge holds it. Without
@@ -93,6 +95,19 @@ class Approaches:
                 closed = partial(self._is_shut, object_id, other, is_closed)
                 yield Approach(other, point, came, _direction(came), closed, is_contact=False, is_seen=False)
 
+    def is_reached(self, object_id: str, point_m: Vector, normal: Vector) -> bool:
+        """Whether an object reaches a contact along a normal.
+
+        The point of a contact is half way between the two surfaces. The box around the object reaches at least as far
+        as its own.
+        """
+        pose = self._graph.pose(object_id)
+        (x, y, z), (u, v, w) = normal, pose.position_m
+        own_normal = in_own((u + x, v + y, w + z), pose)
+        reach_m = sum(abs(part) * half for part, half in zip(own_normal, self._half_m(object_id), strict=True))
+        middle_m = in_world(self._motion.tracks[object_id].own_m, pose)
+        return 2 * (dot(difference(point_m, middle_m), normal) - reach_m) <= TOUCH_M
+
     def _is_shut(self, object_id: str, other: str, is_closed: Callable[[RelativePoses], bool]) -> bool:
         return is_closed(self._motion.poses(object_id, other))
 
@@ -101,7 +116,8 @@ class Approaches:
         direction from the object's middle to the contact.
 
         Engines let small objects sink into others. Once the middle of an object is below the surface, the contact seems
-        to be on its other side. The side from which the object came, since an update, is then the right one.
+        to be on its other side. The side from which the object came, since an update, is then the right one. An object
+        that was lifted does not reach the contact across the gap below it.
         """
         motion = self._motion
         middle_m = in_world(motion.tracks[object_id].own_m, self._graph.pose(object_id))
@@ -109,7 +125,7 @@ class Approaches:
         normal = _given_normal(object_id, other, outward, junction)
         came = motion.nearing_m(object_id, other, middle_m, since, motion.n_updates)
         outside = dot(outward, normal)
-        if outside > 0 > outside + dot(came, normal):
+        if outside > 0 > outside + dot(came, normal) and self.is_reached(object_id, point_m, normal):
             return -normal[0], -normal[1], -normal[2]
         return normal
 

@@ -20,9 +20,8 @@ from typing import NamedTuple
 
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
-from scene2hap.contact.rule import TOUCH_M
 from scene2hap.scene.geometry import Vector, difference, dot
-from scene2hap.scene.pose import Pose, in_own
+from scene2hap.scene.pose import Pose
 from scene2hap.session.impacts.approaches import NO_JUNCTIONS, Approach, Approaches
 from scene2hap.session.impacts.closing_speed import ClosingSpeed
 from scene2hap.session.impacts.motion_track import (
@@ -45,6 +44,9 @@ HEAD_ON = 0.5
 BRAKES_M_S2, BRAKES_M_S = 10.0, 0.2
 """Largest deceleration by a hand that carries, lowers or shakes an object, and largest loss of speed by a hand from one
 step to the next; assumed. Below 50 Hz the latter is the smaller bound, since a short fall lasts for few frames."""
+TREMBLES, TREMBLES_M_S = 3.5, 0.25
+"""Largest loss of speed by the noise of a tracker, as standard deviations of a place per step, and in m/s. With 3 more
+false landings are found, with 5 no fall from 1 cm is."""
 WHOLE = 1.5
 """Slowest landing, as a multiple of this loss. One that is slower would be found or not by the time in a frame at which
 the objects meet."""
@@ -90,11 +92,11 @@ class Landings:
         period_s: float,
         up_axis: int,
     ) -> None:
-        self._graph, self._middle_m, self._half_m = graph, middle_m, half_m
+        self._graph, self._middle_m = graph, middle_m
         self._period_s = period_s
         self._motion = RelativeMotion(graph)
         self._closing = ClosingSpeed(self._motion, period_s, up_axis)
-        self._approaches = Approaches(graph, self._motion, slam, drawer)
+        self._approaches = Approaches(graph, self._motion, half_m, slam, drawer)
         self._near: dict[str, dict[str, Junction]] = {}
         """Contacts of each moving object before the present step, and in all of its updates but the last."""
         self._moved: dict[str, None] = {}
@@ -254,7 +256,7 @@ class Landings:
             closing = dot(came, normal)
             if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
                 # Physics may be slower than the frames, and miss one: has it stopped in mid air?
-                if has_just_stopped and not (one.is_seen and self._is_at(object_id, track, point, normal)):
+                if has_just_stopped and not (one.is_seen and self._approaches.is_reached(object_id, point, normal)):
                     continue
                 step = dot(self._motion.nearing_m(object_id, other, point, before, last), normal)
                 onward = dot(self._motion.nearing_m(object_id, other, point, last, now), normal)
@@ -269,18 +271,6 @@ class Landings:
                     best, most_m = Landing(object_id, other, point, speed), closing
         return best
 
-    def _is_at(self, object_id: str, track: MotionTrack, point_m: Vector, normal: Vector) -> bool:
-        """Whether an object reaches a contact.
-
-        The point of a contact is half way between the two surfaces. The box around the object reaches at least as far
-        as its own.
-        """
-        pose = self._graph.pose(object_id)
-        (x, y, z), (u, v, w) = normal, pose.position_m
-        own_normal = in_own((u + x, v + y, w + z), pose)
-        reach_m = sum(abs(part) * half for part, half in zip(own_normal, self._half_m(object_id), strict=True))
-        return 2 * (dot(difference(point_m, track.middle_m), normal) - reach_m) <= TOUCH_M
-
     def _stops_suddenly(
         self, object_id: str, other: str, point_m: Vector, normal: Vector, run: list[tuple[int, float]]
     ) -> bool:
@@ -293,11 +283,15 @@ class Landings:
             steps.append((came_m / lasts_s, lasts_s))
         fastest, stands_still = 0.0, steps[-1][0] == 0
         for i, ((speed, lasted_s), (now, lasts_s)) in enumerate(pairwise(steps), 3):
-            most = min(BRAKES_M_S2 * (lasted_s + lasts_s) / 2, BRAKES_M_S)
+            between_s = (lasted_s + lasts_s) / 2
             fastest = max(fastest, speed)
             is_last_whole = i == len(steps) and stands_still
-            if fastest > WHOLE * most and (speed - now > most or (is_last_whole and speed > WHOLE * most)):
-                return True
+            largest = min(fastest / WHOLE, max(speed - now, speed / WHOLE if is_last_whole else 0.0))
+            most = min(BRAKES_M_S2 * between_s, BRAKES_M_S)
+            if largest > most:
+                trembles_m = self._motion.tracks[object_id].trembles_m(normal)
+                if largest > most + min(TREMBLES * trembles_m / between_s, TREMBLES_M_S):
+                    return True
         return False
 
 

@@ -26,7 +26,13 @@ def _installed(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize(
     ("channels", "columns"),
-    [(None, [0, 1]), ([3, 4], [2, 3]), ({"right": 1, "left": 2}, [1, 0]), ({"left": 4, "right": 3, "toe": 1}, [3, 2])],
+    [
+        (None, [0, 1]),
+        ([3, 4], [2, 3]),
+        (np.arange(3, 5), [2, 3]),
+        ({"right": 1, "left": 2}, [1, 0]),
+        ({"left": 4, "right": 3, "toe": 1}, [3, 2]),
+    ],
 )
 def test_channel_maps_route_hands_to_channels(channels: object, columns: list[int]) -> None:
     sink = SoundCardSink(channels=channels)

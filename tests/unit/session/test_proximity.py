@@ -146,6 +146,7 @@ def test_no_points_no_touches() -> None:
     s = session()
     assert s.touches_at({}) == []
     assert s.touches_at({"left": np.empty((0, 3)), "right": None}) == []
+    assert s.touches_at({"left": []}) == []
 
 
 @pytest.mark.parametrize(
@@ -170,6 +171,8 @@ def test_errors_name_the_value(points: Any, settings: dict[str, Any], message: s
 def test_moved_objects_need_poses() -> None:
     with pytest.raises(SceneError, match="it must be a Pose"):
         session().touches_at({"left": (0.0, 0.0, 0.0)}, {"phone": (0.0, 1.0, 0.0)})  # type: ignore[dict-item]
+    with pytest.raises(SessionError, match="moved is a list; it must be a mapping"):
+        session().touches_at({"left": (0.0, 0.0, 0.0)}, [("phone", Pose())])  # type: ignore[arg-type]
     with pytest.raises(UnknownObject, match="fone"):
         session().touches_at({"left": (0.0, 0.0, 0.0)}, {"fone": Pose()})
 
