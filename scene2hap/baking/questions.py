@@ -12,7 +12,7 @@ from scene2hap.scene.snapshot import SceneSnapshot
 async def count_questions(
     scene: SceneSnapshot, config: BakeConfig, *, user_prompt: str = "", counted: CountedQuestions | None = None
 ) -> DryRun:
-    """Count the questions about a scene, without those that the cache of the settings can answer.
+    """Count the questions about a scene that the cache of the settings cannot answer.
 
     `counted` has the questions about other scenes of one run, which the cache will have answered. This scene's are
     added.

@@ -243,7 +243,7 @@ async def arebake(
     config = BakeConfig.parse(config)
     given, config = config.model_fields_set, _settings_of(bundle, config)
     for key in [key for key in bundle.inferred if bundle.overrides.get(key, NONE) == NONE]:
-        # Its row was removed from the file. Loops that were edited by hand stay: nobody has asked for others.
+        # Its row was removed from the file. Its loops stay, since they may be edited by hand.
         reset = bundle.reset(key)
         bundle = replace(reset, loops={one: bundle.loops[one] for one in reset.loops})
     if isinstance(objects, str):

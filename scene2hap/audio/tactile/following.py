@@ -11,7 +11,7 @@ it: its levels are those of the last 60 ms, weighted towards the present.
 
 A window of 60 ms would smooth the sudden beginning of a syllable. Where the sound changes by `CHANGED` from one half of
 the window to the other, the gain follows from the half on its own side of the change. Shorter windows everywhere would
-flatten beats of 20 Hz and more, by which machines are told apart.
+flatten beats of 20 Hz and more, which distinguish machines.
 
 If the motion of a resonant actuator for its drive is known (`rendered`), L_bed is the level of this motion. A band
 beside the resonance is amplified as far as `HEADROOM_DB` allows, and the sine at the resonance supplies the rest.

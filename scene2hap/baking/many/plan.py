@@ -62,8 +62,8 @@ def plan_many(
 ) -> list[ScenePlan]:
     """Return what `bake_many` would do with each scene; for parameters, see there. Writes nothing.
 
-    Questions without pictures that the cache can answer, and those that two scenes share, are counted as kept. With
-    pictures, whose content is part of a question and which are not rendered here, every question counts.
+    Without pictures, questions count as kept if the cache can answer them or another scene has the same. With pictures,
+    which are part of a question and are not rendered here, every question counts.
     Raises: ConfigError: as `bake_many`.
     """
     return run_waiting(
