@@ -104,12 +104,16 @@ def did_you_mean(wanted: object, known: Iterable[str], otherwise: str = "") -> s
 
 
 class Problem(NamedTuple):
-    """The first problem that pydantic found: location, reason, value, and pydantic's name for the problem."""
+    """The first problem that pydantic found: location, reason, value, and pydantic's name for the problem.
+
+    is_own is True if the reason is an error of this library, which states the value.
+    """
 
     location: tuple[int | str, ...]
     reason: str
     value: Any
     kind: str
+    is_own: bool
 
     @property
     def place(self) -> str:
@@ -117,11 +121,44 @@ class Problem(NamedTuple):
         return ".".join(map(str, self.location))
 
 
+_REASONS = {
+    "missing": "it is missing",
+    "extra_forbidden": "there is no such field",
+    "string_type": "it must be a text",
+    "bool_type": "it must be true or false",
+    "bool_parsing": "it must be true or false",
+    "int_type": "it must be a whole number",
+    "int_parsing": "it must be a whole number",
+    "int_from_float": "it must be a whole number",
+    "float_type": "it must be a number",
+    "float_parsing": "it must be a number, as 0.5",
+    "finite_number": "it must be finite",
+    "list_type": "it must be a list",
+    "tuple_type": "it must be a list",
+    "dict_type": "it must be an object of names and values",
+    "model_type": "it must be an object of names and values",
+    "dataclass_type": "it must be an object of names and values",
+    "literal_error": "it must be {expected}",
+    "greater_than": "it must be above {gt}",
+    "greater_than_equal": "it must be at least {ge}",
+    "less_than": "it must be below {lt}",
+    "less_than_equal": "it must be at most {le}",
+    "too_short": "it must have at least {min_length} items",
+    "too_long": "it must have at most {max_length} items",
+}
+"""What users read instead of pydantic's sentence about a kind of problem, which speaks of Python's types."""
+
+
 def first_problem(error: ValidationError) -> Problem:
-    """Return the first problem of a failed validation, in our own words if our code raised it."""
+    """Return the first problem of a failed validation, in our own words where there are any."""
     first = error.errors()[0]
-    reason = first["msg"].removeprefix("Value error, ").removesuffix(".")
-    return Problem(first["loc"], reason, first["input"], first["type"])
+    context = first.get("ctx", {})
+    if first["type"] in _REASONS:
+        reason = _REASONS[first["type"]].format(**context)
+    else:
+        reason = first["msg"].removeprefix("Value error, ").removesuffix(".")
+    is_own = isinstance(context.get("error"), Scene2HapError)
+    return Problem(first["loc"], reason, first["input"], first["type"], is_own)
 
 
 def number(

@@ -91,14 +91,15 @@ class Settings(BaseModel):
     @classmethod
     def _refusal(cls, error: ValidationError) -> str:
         problem = checks.first_problem(error)
+        if problem.is_own and (nested := _NESTED.match(problem.reason)):
+            return f"{cls.of_what} setting {problem.place}.{problem.reason[nested.end() :]}."
         if problem.kind == "extra_forbidden" and len(problem.location) == 1:
             known = ", ".join(cls.model_fields)
             near = checks.did_you_mean(problem.location[0], cls.model_fields, f"There are {known}.")
             return f"there is no {cls.of_what} setting {problem.location[0]!r}. {near}"
         if not problem.location:  # the settings do not fit each other; none of them is the wrong one
             return f"{cls.of_what} settings: {problem.reason}."
-        value = checks.shown(problem.value, problem.location[-1])
-        got = "" if problem.kind == "value_error" and value in problem.reason else f", got {value}"
+        got = "" if problem.is_own else f", got {checks.shown(problem.value, problem.location[-1])}"
         said = f"{cls.of_what} setting {problem.place}: {problem.reason}{got}"
         return said if said.endswith("?") else f"{said}."
 
@@ -114,6 +115,8 @@ def _has_flag(value: object) -> bool:
     return any(map(_has_flag, value)) if isinstance(value, list | tuple) else type(value).__name__ in ("bool", "bool_")
 
 
+_NESTED = re.compile(r"\w+ setting (?=\w[\w.]*: )")
+"""The beginning of an error about a setting, which is replaced if the settings are part of others."""
 _SUFFIXES = (".json", ".toml")
 _LONG_KEY = re.compile(r"""(?<![\w"'-])(?:[\w"'-]++[ \t]*+\.[ \t]*+){32}""")
 """tomllib's time grows with the square of the parts of a dotted key: one of 40 kB takes 16 s."""

@@ -177,12 +177,10 @@ class TouchTrack(BaseModel):
 
 
 _WANTED = {
-    "float_parsing": "it must be a number with a decimal point",
-    "bool_parsing": "it must be true or false",
     "extra_forbidden": "there is no such field in this step",
     "union_tag_not_found": f"a step has one of the fields {', '.join(_ACTIONS)}",
 }
-"""Sentences for pydantic's kinds of problems, where pydantic's own do not say what to write."""
+"""Reasons for pydantic's kinds of problems that say more about a step than those of `checks`."""
 
 
 def _sentence(problem: checks.Problem) -> str:

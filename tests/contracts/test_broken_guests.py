@@ -407,7 +407,7 @@ def spoiled(reply: LLMReply, request: LLMRequest) -> LLMReply:
         (Backend(lambda reply, _: reply.text), "Backend.complete gives a str"),
         (Backend(lambda reply, _: LLMReply(reply.text, "")), "does not say which model answered"),
         (Backend(lambda reply, _: LLMReply("", "m")), "answered without content"),
-        (Backend(lambda reply, _: LLMReply('{"wrong": 1}', "m")), "object_category: Field required"),
+        (Backend(lambda reply, _: LLMReply('{"wrong": 1}', "m")), "object_category: it is missing"),
         (Backend(spoiled), "changed the facts"),
         (Backend(only("scene_analyzer", "[]")), "invalid answers: scene_analyzer"),
         (Backend(only("material_estimator", '{"density_kg_m3": "heavy"}')), "invalid answers: material_estimator"),

@@ -54,7 +54,7 @@ def test_true_or_a_text_in_place_of_a_number_is_refused(folder: Path, name: str,
         "states": [{**row["states"][0], "intensity": value}],
     }
     edit(folder, "phone", **{name: within.get(name, value)})
-    with pytest.raises(BundleError, match=r"objects\.json: phone\..* is .*: Input should be a valid number"):
+    with pytest.raises(BundleError, match=r"objects\.json: phone\..* is .*: it must be a number"):
         HapticBundle.load(folder)
 
 

@@ -118,7 +118,7 @@ def test_object_can_contain_its_geometry() -> None:
     [
         ({"kind": "mesh", "vertices_m": [[0, 0, 0]] * 4, "faces": [[0, 1, 2, 3]]}, ": faces has shape (1, 4)"),
         ({"kind": "mesh", "vertices_m": [0, 0, 0], "faces": [0, 0, 0]}, ": vertices_m has shape (3,)"),
-        ({"vertices_m": [[0, 0, 0]] * 3}, ".faces: Field required"),
+        ({"vertices_m": [[0, 0, 0]] * 3}, ".faces: it is missing"),
         ({"kind": "box", "size_m": [1, 0, 1]}, ": size_m[1] is 0 m"),
         ({"kind": "sphere", "radius_m": 1}, ".kind is 'sphere'; it must be 'box' or 'mesh'"),
         ([1, 1, 1], " is [1, 1, 1]; it must be a box or a mesh"),

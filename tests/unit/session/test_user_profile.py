@@ -6,6 +6,7 @@ import json
 import re
 import threading
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -258,3 +259,19 @@ def test_a_file_without_the_table_of_a_profile_is_refused(tmp_path: Path) -> Non
     (tmp_path / "game.toml").write_text("[session]\n")
     with pytest.raises(ConfigError, match="there is no table 'user'"):
         UserProfile.parse(tmp_path / "game.toml")
+
+
+@pytest.mark.parametrize(
+    ("fields", "words"),
+    [
+        ({"curve_db": {100: 3.0}}, r"curve_db: it must be a list, got \{100: 3\.0\}\."),
+        ({"curve_db": [(100, 3.0, 1.0)]}, r"curve_db\.0: it must have at most 2 items, got \[100, 3\.0, 1\.0\]\."),
+        ({"gain_db": 41}, r"gain_db: it must be at most 40.*, got 41\."),
+        ({"gain_db": "loud"}, r"gain_db: it must be a number.*, got 'loud'\."),
+    ],
+)
+def test_errors_of_a_hand_name_its_setting_and_the_value_once(fields: dict[str, Any], words: str) -> None:
+    with pytest.raises(ConfigError, match=f"^user setting {words}$"):
+        UserProfile(**fields)
+    with pytest.raises(ConfigError, match=f"^user setting hands.left.{words}$"):
+        UserProfile(hands={"left": fields})

@@ -238,11 +238,11 @@ def test_error_names_unknown_objects() -> None:
 @pytest.mark.parametrize(
     ("settings", "sentence"),
     [
-        ({"size_px": 0}, "capture setting size_px: .*greater than or equal to 16, got 0"),
+        ({"size_px": 0}, "capture setting size_px: it must be at least 16, got 0"),
         ({"config": {"fill": 1.5}}, "capture setting fill: .*got 1.5"),
         ({"config": {"colour": 1}}, "no capture setting 'colour'"),
-        ({"config": {"elevation_deg": 90.0}}, "capture setting elevation_deg: .*less than 90"),
-        ({"config": {"outline_rgb": (300, 0, 0)}}, "capture setting outline_rgb.*less than or equal to 255"),
+        ({"config": {"elevation_deg": 90.0}}, "capture setting elevation_deg: it must be below 90"),
+        ({"config": {"outline_rgb": (300, 0, 0)}}, "capture setting outline_rgb.*it must be at most 255"),
         ({"renderer": 5}, "renderer is 5; it must be a kind"),
     ],
 )
