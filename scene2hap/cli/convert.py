@@ -19,7 +19,7 @@ from scene2hap.audio.conversion import FORMATS, Conversion, Failure, convert_fil
 from scene2hap.audio.files import READABLE
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.cli.console import Console
-from scene2hap.cli.shared_options import given_spec
+from scene2hap.cli.given_spec import given_spec
 from scene2hap.common.counted import counted
 from scene2hap.errors import AudioError, ConfigError
 
