@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from scene2hap.audio.conversion.clips import PRE_ROLL_S
 from scene2hap.audio.conversion.meter import Block, Meter
+from scene2hap.audio.conversion.repetition import with_repetitions
 from scene2hap.audio.files import MAX_SAMPLE, Mixdown, require_finite
 from scene2hap.audio.loop_marks import LONGEST_MARK_S, SHORTEST_MARK_S
 from scene2hap.audio.tactile.sections import through_sections
@@ -156,11 +157,9 @@ class SoundReader:
 
 
 def _repeated(blocks: Iterator[Block], n_around: int) -> Iterator[Block]:
-    """Yield a loop as its repetitions continue it: its last `n_around` frames, all of it, and its first ones."""
-    whole = np.concatenate([*blocks])
-    end = len(whole) + n_around
-    for first in range(-n_around, end, BLOCK_FRAMES):
-        yield whole[np.arange(first, min(first + BLOCK_FRAMES, end)) % len(whole)]
+    """Yield a loop `with_repetitions`."""
+    repeated = with_repetitions(np.concatenate([*blocks]), n_around)
+    yield from (repeated[at : at + BLOCK_FRAMES] for at in range(0, len(repeated), BLOCK_FRAMES))
 
 
 def _require_length_of_loop(source: Path, duration_s: float) -> None:
