@@ -61,7 +61,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--mono", action="store_true", help="mix the channels of each file first")
     parser.add_argument("--picture", action="store_true", help="draw spectrograms and envelopes beside each file")
     parser.add_argument("--force", action="store_true", help="overwrite files that exist")
-    parser.add_argument("--workers", type=int, metavar="N", help="number of processes, default one per processor")
+    parser.add_argument(
+        "--workers",
+        type=int,
+        metavar="N",
+        help="number of processes, default one per processor, fewer for short sounds",
+    )
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
