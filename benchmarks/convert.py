@@ -3,6 +3,8 @@
 python benchmarks/convert.py [--runs 7]
 
 - Time of `auto`, the default, for 60 s at 48 kHz of sounds that use its parts, in mono and stereo.
+- Time of `auto` for files of 2, 5 and 10 s of the same sounds, in stereo, on a flat and on a resonant actuator: the
+  later files of a process, and a whole process of the command line with one file or a folder of six.
 - Time of a live stream of `auto` for 10 s of the same sounds, in blocks of three sizes.
 - Time of the paper's band-pass for 60 s of stereo, and the ratio of real time to it.
 - The same job (read WAV, band-pass at 250 Hz with 12 dB per octave, write 24-bit WAV, in the same blocks) by
@@ -16,6 +18,7 @@ from __future__ import annotations
 import argparse
 import os
 import platform
+import resource
 import statistics
 import subprocess
 import sys
@@ -39,6 +42,8 @@ from scene2hap.audio.tactile.auto import Auto
 
 RATE = 48_000
 BLOCK = 65_536
+SHORT_S = (2, 5, 10)
+ACTUATORS = ("flat", "lra")
 CONVERTER = "svf_bandpass"  # pedalboard's filters can do the same
 PEAK = (
     "import resource, sys; from scene2hap.audio import convert;"
@@ -90,6 +95,8 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         memory(Path(folder))  # first: a new process inherits the peak memory of its parent
         default_speed(Path(folder), runs)
+        later_files(Path(folder), runs)
+        first_files(Path(folder), runs)
         live_speed(runs)
         speed(Path(folder), runs)
 
@@ -125,6 +132,47 @@ def default_speed(folder: Path, runs: int) -> None:
             job = partial(convert, source, folder / "felt.wav", overwrite=True)
             found.append(60.0 / statistics.median([timed(job)[1] for _ in range(runs + 1)][1:]))
         print(f"  {name:20} mono {found[0]:5.0f} x   stereo {found[1]:5.0f} x")
+
+
+def later_files(folder: Path, runs: int) -> None:
+    print("auto, stereo files of seconds, the first of each kind not counted: times real time by the processor")
+    print(f"  {'':20}" + "".join(f"  {actuator:>5} {seconds:2} s" for actuator in ACTUATORS for seconds in SHORT_S))
+    for name, sound in kinds_of_sound().items():
+        found = []
+        for actuator in ACTUATORS:
+            for seconds in SHORT_S:
+                source = folder / "short.wav"
+                soundfile.write(source, sound[: seconds * RATE], RATE, subtype="PCM_16")
+                job = partial(convert, source, folder / "felt.wav", actuator=actuator, overwrite=True)
+                found.append(seconds / statistics.median([timed(job)[1] for _ in range(runs + 1)][1:]))
+        print(f"  {name:20}" + "".join(f"  {times:8.0f} x" for times in found))
+
+
+def first_files(folder: Path, runs: int) -> None:
+    sounds = folder / "sounds"
+    sounds.mkdir()
+    for number, sound in enumerate(kinds_of_sound().values()):
+        for seconds in SHORT_S:
+            part = sounds if seconds == SHORT_S[1] else folder
+            soundfile.write(part / f"{number}_{seconds}.wav", sound[: seconds * RATE], RATE, subtype="PCM_16")
+    print("scene2hap convert, a new process, its start included: processor time of the median run")
+    jobs = [(f"one file of {n} s", (sounds if n == SHORT_S[1] else folder) / f"0_{n}.wav", n) for n in SHORT_S]
+    n_files = len(list(sounds.iterdir()))
+    jobs.append((f"{n_files} files of {SHORT_S[1]} s", sounds, n_files * SHORT_S[1]))
+    for actuator in ACTUATORS:
+        for name, source, seconds in jobs:
+            output = folder / ("felt.wav" if source.is_file() else "felt")
+            taken = statistics.median([of_command(source, output, actuator) for _ in range(runs)])
+            print(f"  {actuator:5} {name:17} {1e3 * taken:5.0f} ms, {seconds / taken:4.0f} x real time")
+
+
+def of_command(source: Path, output: Path, actuator: str) -> float:
+    """Run the command line on a file or a folder. Returns its processor time [s]."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    command = [sys.executable, "-m", "scene2hap", "convert", source, "-o", output, "--force", "--quiet"]
+    subprocess.run([*command, "--actuator", actuator, "--workers", "1"], capture_output=True, check=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def live_speed(runs: int) -> None:

@@ -94,7 +94,7 @@ FIGURES = {
     "exports": Figure("exports", "benchmarks/export.py", 0.5, has_times=True, needs="scenes"),
     "voices": Figure("conversion", "benchmarks/voices.py", 0.2, needs="recordings"),
     "recordings": Figure("conversion", "benchmarks/recordings.py", 0.5, needs="recordings"),
-    "conversion-cost": Figure("conversion", "benchmarks/convert.py", 5, has_times=True, is_text=True),
+    "conversion-cost": Figure("conversion", "benchmarks/convert.py", 7, has_times=True, is_text=True),
     "audio": Figure("audio", "stress/audio.py", 5, is_text=True, needs="recordings"),
     "recorded-runs": Figure("audio", "benchmarks/recorded_runs.py", 2, needs="recordings"),
     "accuracy": Figure("accuracy", "benchmarks/accuracy.py", 10, has_times=True),

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.audio.clip import Samples
@@ -130,10 +131,10 @@ def equalize_loop(loop_samples: Samples, sample_rate_hz: float, profile: Actuato
     """
     if is_flat(profile):
         return loop_samples
-    spectrum = np.fft.rfft(loop_samples.astype(np.float64))
+    spectrum = scipy.fft.rfft(loop_samples.astype(np.float64))
     f = np.fft.rfftfreq(len(loop_samples), 1.0 / sample_rate_hz)
     gain = 10 ** (inverse_db(profile, f) / 20)
-    return np.fft.irfft(spectrum * gain, len(loop_samples)).astype(np.float32)
+    return scipy.fft.irfft(spectrum * gain, len(loop_samples)).astype(np.float32)
 
 
 def _from_fields(fields: Mapping[str, Any]) -> ActuatorProfile:

@@ -44,7 +44,7 @@ def rhythm_hz(samples: ArrayLike, sample_rate_hz: float, least_depth: float = SU
     envelope = np.abs(scipy.signal.hilbert(x - x.mean()))
     rates = np.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
     inside = (rates >= _RATE_HZ[0]) & (rates <= _RATE_HZ[1])
-    depth = 2.0 * np.abs(np.fft.rfft(envelope)) / len(x) / envelope.mean()
+    depth = 2.0 * np.abs(scipy.fft.rfft(envelope)) / len(x) / envelope.mean()
     depth[~inside] = 0.0
     k = int(np.argmax(depth))
     return float(rates[k]) if depth[k] >= least_depth else None

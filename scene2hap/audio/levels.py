@@ -14,6 +14,7 @@ import math
 from functools import lru_cache
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.audio.actuators import response_db
@@ -113,7 +114,7 @@ def felt_spectrum(
     No window is applied, since a loop is periodic. The range is 10 to 1000 Hz.
     """
     x = np.asarray(samples, dtype=np.float64)
-    return _felt(np.fft.rfft(x), len(x), sample_rate_hz, actuator)
+    return _felt(scipy.fft.rfft(x), len(x), sample_rate_hz, actuator)
 
 
 def felt_level_db(samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorProfile | None = None) -> float:

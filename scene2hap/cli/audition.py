@@ -14,8 +14,9 @@ import numpy as np
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
+from scene2hap.cli.given_spec import given_spec
 from scene2hap.cli.play import UPDATE_S, SinkOutput, silence
-from scene2hap.cli.shared_options import given_spec, session_config
+from scene2hap.cli.shared_options import session_config
 from scene2hap.common import checks
 from scene2hap.devices import SINKS
 from scene2hap.devices.wav import WavSink

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.cli.console import Console
-from scene2hap.cli.shared_options import given_spec
+from scene2hap.cli.given_spec import given_spec
 from scene2hap.common.settings import read_settings
 from scene2hap.errors import ConfigError
 

@@ -19,7 +19,7 @@ from scene2hap.audio.conversion import FORMATS, Conversion, Failure, convert_fil
 from scene2hap.audio.files import READABLE
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.cli.console import Console
-from scene2hap.cli.shared_options import given_spec
+from scene2hap.cli.given_spec import given_spec
 from scene2hap.common.counted import counted
 from scene2hap.errors import AudioError, ConfigError
 
@@ -61,7 +61,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--mono", action="store_true", help="mix the channels of each file first")
     parser.add_argument("--picture", action="store_true", help="draw spectrograms and envelopes beside each file")
     parser.add_argument("--force", action="store_true", help="overwrite files that exist")
-    parser.add_argument("--workers", type=int, metavar="N", help="number of processes, default one per processor")
+    parser.add_argument(
+        "--workers",
+        type=int,
+        metavar="N",
+        help="number of processes, default one per processor, fewer for short sounds",
+    )
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:

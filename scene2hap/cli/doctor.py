@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 
 from scene2hap import __version__
 from scene2hap.cli.console import Console
+from scene2hap.cli.given_spec import given_spec
 from scene2hap.cli.list import GROUPS
-from scene2hap.cli.shared_options import given_spec
 from scene2hap.common import checks
 from scene2hap.common.failures import failure_of
 from scene2hap.compiled import are_in_use

@@ -18,7 +18,8 @@ from typing import Any
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
-from scene2hap.cli.shared_options import given_spec, session_config
+from scene2hap.cli.given_spec import given_spec
+from scene2hap.cli.shared_options import session_config
 from scene2hap.common.counted import counted
 from scene2hap.errors import ConfigError
 from scene2hap.export import EXPORTS, ExportReport, export_bundle, export_clip

@@ -19,9 +19,10 @@ from rich.text import Text
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
+from scene2hap.cli.given_spec import given_spec
 from scene2hap.cli.keys import DOWN, LEFT, RIGHT, UP, keys
 from scene2hap.cli.plan import Plan
-from scene2hap.cli.shared_options import given_spec, session_config
+from scene2hap.cli.shared_options import session_config
 from scene2hap.devices import SINKS
 from scene2hap.devices.protocol import ActuatorSink, SinkEvent, has_clock
 from scene2hap.errors import ConfigError

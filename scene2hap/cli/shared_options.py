@@ -6,20 +6,10 @@ import argparse
 from typing import Any
 
 from scene2hap.bundle import HapticBundle
-from scene2hap.common.json_texts import parse_json
+from scene2hap.cli.given_spec import given_spec
 from scene2hap.common.settings import read_settings
 from scene2hap.errors import ConfigError
 from scene2hap.session import SessionConfig
-
-
-def given_spec(option: str, text: str) -> object:
-    """Return a kind, or a mapping with a kind and its settings, written as JSON. Raises: ConfigError: invalid JSON."""
-    if not text.lstrip().startswith("{"):
-        return text
-    try:
-        return parse_json(text)
-    except (ValueError, RecursionError) as cause:
-        raise ConfigError(f"{option} is {text!r}, which is no JSON ({cause}). Give a kind, or an object.") from cause
 
 
 def add_backend_arguments(parser: argparse.ArgumentParser) -> None:

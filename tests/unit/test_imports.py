@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from scene2hap import compiled
 from scene2hap.errors import UnknownImport
 
 HELP = """
@@ -52,6 +53,27 @@ def test_the_command_line_starts_without_the_packages_of_scipy() -> None:
     """They take as long as all other imports together. `import scipy` loads each where a command first uses it."""
     loaded = modules_after(EVERY_COMMAND)
     assert not loaded & {f"scipy.{name}" for name in ("fft", "linalg", "optimize", "signal", "sparse", "stats")}
+
+
+CONVERT = """
+import numpy, soundfile, tempfile
+from pathlib import Path
+from scene2hap.cli import main
+with tempfile.TemporaryDirectory() as folder:
+    sound, felt = Path(folder) / "hum.wav", Path(folder) / "felt.wav"
+    soundfile.write(sound, 0.2 * numpy.sin(2 * numpy.pi * 97.0 / 8000 * numpy.arange(8000)), 8000)
+    code = main(["convert", str(sound), "-o", str(felt), "--actuator", "lra", "--quiet"])
+    assert code == 0 and felt.is_file(), code
+"""
+
+
+def test_a_conversion_loads_no_other_side_of_the_library_and_no_filter_design_of_scipy() -> None:
+    """Each of these took 0.2 s or more, and a short sound is converted in 0.05 s."""
+    loaded = modules_after(CONVERT)
+    if compiled.are_in_use():  # the plain kernel of filters is scipy's
+        assert not loaded & {"scipy.signal", "scipy.optimize", "scipy.stats"}
+    assert "pydantic" not in loaded
+    assert not {name for name in loaded if name.startswith(("scene2hap.bundle", "scene2hap.session", "scene2hap.llm"))}
 
 
 WITHOUT_FORK = """

@@ -9,7 +9,7 @@ from scene2hap import BakeConfig, load_scene
 from scene2hap.bundle.account import read_account
 from scene2hap.bundle.corrections import read_corrections
 from scene2hap.bundle.files import read_json as read_bundle_json
-from scene2hap.cli.shared_options import given_spec
+from scene2hap.cli.given_spec import given_spec
 from scene2hap.clips.reading import read_haptic_clip
 from scene2hap.errors import Scene2HapError
 from scene2hap.scene.capture.given_pictures import GivenPictures

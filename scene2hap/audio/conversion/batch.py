@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
@@ -24,6 +24,9 @@ from scene2hap.common.worker_processes import as_finished, most_workers, worker_
 from scene2hap.errors import AudioError, Scene2HapError, unwritable
 
 _MOST_NAMED = 3
+_WORTH_BYTES = 1 << 23
+"""Bytes of sounds that are worth another process (assumed): 40 s of WAV or 8 min of Ogg, which take 0.3 to 4 s to
+convert. A process takes half a second to start."""
 
 Progress = Callable[[str, int, int], None]
 """Called with (file, number of files done, number of all files)."""
@@ -61,8 +64,9 @@ def convert_files(
     Parameters:
     output : a file, if there is one source, which is no folder, and this path has a suffix and is no folder; otherwise
         a folder. There, files keep their name and their path below the source folder, with the new `suffix`.
-    pictures : draw a PNG beside each output file; workers : number of processes, None for one per processor; a script
-        that uses several needs ``if __name__ == "__main__":``; the rest : as for `convert`.
+    pictures : draw a PNG beside each output file; workers : number of processes, None for one per processor, but fewer
+        for a few short sounds; a script that uses several needs ``if __name__ == "__main__":``; the rest : as for
+        `convert`.
     Raises: ConfigError: settings that cannot work. AudioError: there is nothing to convert, or the output is one file
     for several sources. Problems of a single file are returned as a `Failure`.
     """
@@ -83,7 +87,7 @@ def convert_files(
 def _outcomes(
     jobs: dict[int, _Job], workers: int | None, pictures: bool, settings: dict[str, Any]
 ) -> Iterator[tuple[int, Conversion | Failure]]:
-    n_workers = most_workers(min(workers or os.cpu_count() or 1, len(jobs)))
+    n_workers = most_workers(min(workers or _useful_workers(jobs.values(), pictures), len(jobs)))
     if n_workers <= 1:
         for index, job in jobs.items():
             yield index, _convert(job, pictures, settings)
@@ -98,6 +102,14 @@ def _outcomes(
     finally:
         for job in left.values():  # after an interrupt
             _remove_drafts(job)
+
+
+def _useful_workers(jobs: Iterable[_Job], pictures: bool) -> int:
+    n_processors = os.cpu_count() or 1
+    if pictures:  # drawing takes longer than a process takes to start
+        return n_processors
+    n_bytes = sum(os.path.getsize(job.source) for job in jobs if os.path.isfile(job.source))
+    return min(n_processors, 1 + n_bytes // _WORTH_BYTES)
 
 
 def _result(future: Future[Conversion | Failure], job: _Job) -> Conversion | Failure:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 import scipy
+from numpy.typing import NDArray
 
 from scene2hap.audio.actuators import inverse_db
 from scene2hap.audio.conversion.meter import Block
@@ -26,7 +29,7 @@ class Equalizer:
     def __init__(self, actuator: ActuatorProfile, sample_rate_hz: int, channels: int) -> None:
         n = max(16, round(_LENGTH_S * sample_rate_hz))
         size = scipy.fft.next_fast_len(4 * n, real=True)
-        self._spectrum = scipy.fft.rfft(_minimum_phase(actuator, sample_rate_hz, n), size)
+        self._spectrum = _spectrum(actuator, sample_rate_hz, n, size)
         self._size, self._hop = size, size - n + 1
         self._before = np.zeros((channels, n - 1))
         self._waiting: list[Floats] = []
@@ -54,6 +57,11 @@ class Equalizer:
         self._before = heard[:, self._hop :]
         felt = scipy.fft.irfft(scipy.fft.rfft(heard, axis=1) * self._spectrum, self._size, axis=1)
         return np.asarray(felt[:, self._size - self._hop :].T.astype(np.float32, order="C"))
+
+
+@lru_cache(maxsize=2)
+def _spectrum(actuator: ActuatorProfile, sample_rate_hz: int, n: int, size: int) -> NDArray[np.complex128]:
+    return np.asarray(scipy.fft.rfft(_minimum_phase(actuator, sample_rate_hz, n), size))
 
 
 def _minimum_phase(actuator: ActuatorProfile, sample_rate_hz: int, n: int) -> Floats:

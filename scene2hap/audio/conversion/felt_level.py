@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 import scipy
@@ -33,12 +34,8 @@ class FeltLevel:
         self._segment, self._filled = np.zeros((channels, size), dtype=np.float32), self._overlap
         self._full: list[Block] = []
         self._n_frames = 0
-        slope = np.sin(0.5 * np.pi * (np.arange(self._overlap) + 0.5) / self._overlap)
-        self._window = np.concatenate([slope, np.ones(size - 2 * self._overlap), slope[::-1]]).astype(np.float32)
-        f = np.fft.rfftfreq(size, 1.0 / sample_rate_hz)
-        inside = (f >= TACTILE_RANGE_HZ[0]) & (f <= TACTILE_RANGE_HZ[1])
-        weight = 10 ** ((response_db(actuator, f[inside]) - threshold_db(f[inside])) / 10)
-        self._inside, self._weight = np.flatnonzero(inside), weight
+        self._window = _window(size, self._overlap)
+        self._inside, self._weight = _weights(size, sample_rate_hz, actuator)
         self._energy = np.zeros(channels)
 
     def hear(self, block: Block) -> None:
@@ -83,3 +80,17 @@ class FeltLevel:
         power = spectrum.real.astype(np.float64) ** 2 + spectrum.imag.astype(np.float64) ** 2
         # Factor 4: both sides of the spectrum, and the square of an amplitude is twice its mean power (Parseval).
         return np.asarray(4.0 / len(self._window) * (power @ self._weight).sum(axis=0))
+
+
+@lru_cache(maxsize=2)
+def _window(size: int, overlap: int) -> NDArray[np.float32]:
+    slope = np.sin(0.5 * np.pi * (np.arange(overlap) + 0.5) / overlap)
+    return np.concatenate([slope, np.ones(size - 2 * overlap), slope[::-1]]).astype(np.float32)
+
+
+@lru_cache(maxsize=2)
+def _weights(size: int, sample_rate_hz: int, actuator: ActuatorProfile) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """Return the bins that can be felt, and the squared ratio of amplitude to threshold at each."""
+    f = np.fft.rfftfreq(size, 1.0 / sample_rate_hz)
+    inside = np.flatnonzero((f >= TACTILE_RANGE_HZ[0]) & (f <= TACTILE_RANGE_HZ[1]))
+    return inside, 10 ** ((response_db(actuator, f[inside]) - threshold_db(f[inside])) / 10)

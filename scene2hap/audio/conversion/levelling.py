@@ -13,16 +13,13 @@ from scene2hap.audio.conversion.equalizer import Equalizer
 from scene2hap.audio.conversion.felt_level import FeltLevel
 from scene2hap.audio.conversion.meter import Block
 from scene2hap.audio.conversion.reading import BLOCK_FRAMES, SoundReader
+from scene2hap.audio.conversion.repetition import one_period
 from scene2hap.audio.levels import NOTHING_DB, TACTILE_HEADROOM_DB, is_noise, sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
-from scene2hap.audio.seam import Seam, apply_seam
 from scene2hap.haptics import ActuatorProfile
 
 _END_S = 0.01
 """Length of the fade-out at the end of a file [s]; a sound that breaks off would end with a knock."""
-_SEAM_S = 0.02
-"""Length of the cross-fade from the end of a loop to its beginning [s]. The oscillator of a converter may have another
-phase there: two opposed waves cancel each other for this time, a few waves at 200 Hz (assumed)."""
 
 
 def levelled(
@@ -57,10 +54,8 @@ def _scaled(held: IO[bytes], channels: int, gain: float) -> Iterator[Block]:
 
 
 def _looped(blocks: Iterator[Block], sound: SoundReader) -> Iterator[Block]:
-    """Yield a loop without the frames around it; after its end they cross-fade to its beginning."""
-    felt, n_frames = np.concatenate([*blocks]), sound.meter.n_frames
-    seam = Seam(sound.n_around, n_frames, min(n_frames // 2, round(_SEAM_S * sound.rate)), "linear")
-    yield np.stack([apply_seam(channel, seam.fitted(channel)) for channel in felt.T], axis=1)
+    felt = np.concatenate([*blocks])
+    yield np.stack([one_period(channel, sound.n_around, sound.rate) for channel in felt.T], axis=1)
 
 
 def _faded_out(blocks: Iterator[Block], n_frames: int) -> Iterator[Block]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 import scipy
 from numpy.typing import NDArray
@@ -37,7 +39,7 @@ class Meter:
         n_segments = int(np.clip(self.n_expected // size, 1, MOST_SEGMENTS))
         self._starts = np.linspace(0, max(0, self.n_expected - size), n_segments).astype(int).tolist()
         self._segment = np.zeros((channels, size), dtype=np.float32)
-        self._window = hann(size).astype(np.float32)
+        self._window = _window(size)
         self._filled = 0
         self._power = np.zeros(size // 2 + 1)
         self._is_measured = False
@@ -77,8 +79,7 @@ class Meter:
     def _peak_hz(self, range_hz: tuple[float, float], weight_db: analysis.Weight | None) -> float | None:
         if not self._is_measured and self._filled > 1:
             rest = self._segment[:, : self._filled]
-            window = hann(self._filled).astype(np.float32)
-            rest = (rest - rest.mean(axis=1, keepdims=True)) * window
+            rest = (rest - rest.mean(axis=1, keepdims=True)) * _window(self._filled)
             self._add(np.pad(rest, ((0, 0), (0, self._segment.shape[1] - self._filled))))
         if not self._power[1:].any():
             return None
@@ -105,3 +106,8 @@ class Meter:
         first = np.flatnonzero(np.diff(places, prepend=-1))
         largest = np.maximum.reduceat(np.abs(block).max(axis=1), first)
         np.maximum.at(self.envelope, places[first], largest)
+
+
+@lru_cache(maxsize=2)
+def _window(size: int) -> NDArray[np.float32]:
+    return hann(size).astype(np.float32)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from scene2hap.audio.conversion.clips import PRE_ROLL_S
 from scene2hap.audio.conversion.meter import Block, Meter
+from scene2hap.audio.conversion.repetition import with_repetitions
 from scene2hap.audio.files import MAX_SAMPLE, Mixdown, require_finite
 from scene2hap.audio.loop_marks import LONGEST_MARK_S, SHORTEST_MARK_S
 from scene2hap.audio.tactile.sections import through_sections
@@ -57,10 +59,10 @@ class SoundReader:
     def middle(self) -> Block:
         """Return all channels of the middle of the file (n, n_channels), at most `_MIDDLE_S`."""
         n = round(_MIDDLE_S * self.rate)
+        if self._whole is not None:
+            return self._whole
         self._file.seek(max(0, int(self._file.frames) - n) // 2)
-        channels: Block = self._file.read(n, dtype="float32", always_2d=True)
-        self._file.seek(0)
-        return channels
+        return self._read(n)
 
     def blocks(self) -> Iterator[Block]:
         """Yield the whole file in blocks (n, channels).
@@ -68,9 +70,9 @@ class SoundReader:
         Raises: AudioError: it has no samples, a sample that is not finite, or fewer samples than its header states.
         """
         stated, n_read = int(self._file.frames), 0
-        while len(block := self._file.read(BLOCK_FRAMES, dtype="float32", always_2d=True)):
+        for part in self._parts(BLOCK_FRAMES):
             with np.errstate(over="ignore"):  # of samples that are refused below
-                block = self._mixed(block)
+                block = self._mixed(part)
                 self.meter.hear(block)
             if not self.meter.peak <= MAX_SAMPLE:
                 require_finite(self._source, block, n_read)
@@ -103,25 +105,46 @@ class SoundReader:
     def _peak(self) -> float:
         """Return the peak of a file that can exceed full scale [-]; 0 for PCM, and for samples that are refused later.
 
-        This reads the file once more; decoding takes far less time than the conversion.
+        This reads a long file once more; decoding takes far less time than the conversion.
         """
         if self._file.subtype.startswith("PCM_"):
             return 0.0
         peak = 0.0
-        while len(block := self._file.read(BLOCK_FRAMES, dtype="float32", always_2d=True)):
+        for part in self._parts(BLOCK_FRAMES):
             with np.errstate(over="ignore"):
-                peak = max(peak, float(np.abs(self._mixed(block)).max()))
-        self._file.seek(0)
+                peak = max(peak, float(np.abs(self._mixed(part)).max()))
         return peak if peak <= MAX_SAMPLE else 0.0
 
     def _first_offsets(self) -> NDArray[np.float64]:
         """Return the offset of each channel at the beginning of the file."""
-        head = self._file.read(_OFFSET_FRAMES, dtype="float32", always_2d=True)
-        self._file.seek(0)
-        if not len(head) or not np.isfinite(head).all():  # the conversion raises an error for this
+        head = next(self._parts(_OFFSET_FRAMES), None)
+        if head is None or not np.isfinite(head).all():  # the conversion raises an error for this
             return np.zeros(self.channels)
         offsets: NDArray[np.float64] = self._mixed(head).mean(axis=0, dtype=np.float64)
         return offsets
+
+    @cached_property
+    def _whole(self) -> Block | None:
+        """All channels of a file (n, n_channels) that is no longer than its middle, decoded once; None for others."""
+        most = round(_MIDDLE_S * self.rate)
+        if self._file.frames > most:
+            return None
+        channels = self._read(most + 1)
+        return channels if len(channels) <= most else None  # the length of an MP3 is an estimate
+
+    def _parts(self, n_frames: int) -> Iterator[Block]:
+        """Yield all channels of the file in parts (n, n_channels)."""
+        whole = self._whole
+        if whole is not None:
+            yield from (whole[at : at + n_frames] for at in range(0, len(whole), n_frames))
+            return
+        self._file.seek(0)
+        while len(part := self._read(n_frames)):
+            yield part
+
+    def _read(self, n_frames: int) -> Block:
+        channels: Block = self._file.read(n_frames, dtype="float32", always_2d=True)
+        return channels
 
     def _mixed(self, block: Block) -> Block:
         """Return the channels, or in mono their mean or the one that stands for all, as (n, 1)."""
@@ -134,11 +157,9 @@ class SoundReader:
 
 
 def _repeated(blocks: Iterator[Block], n_around: int) -> Iterator[Block]:
-    """Yield a loop as its repetitions continue it: its last `n_around` frames, all of it, and its first ones."""
-    whole = np.concatenate([*blocks])
-    end = len(whole) + n_around
-    for first in range(-n_around, end, BLOCK_FRAMES):
-        yield whole[np.arange(first, min(first + BLOCK_FRAMES, end)) % len(whole)]
+    """Yield a loop `with_repetitions`."""
+    repeated = with_repetitions(np.concatenate([*blocks]), n_around)
+    yield from (repeated[at : at + BLOCK_FRAMES] for at in range(0, len(repeated), BLOCK_FRAMES))
 
 
 def _require_length_of_loop(source: Path, duration_s: float) -> None:

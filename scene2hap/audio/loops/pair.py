@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -10,7 +9,8 @@ import numpy as np
 
 from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip, Samples
-from scene2hap.audio.conversion import convert_clip
+from scene2hap.audio.conversion.clips import PRE_ROLL_S, convert_clip
+from scene2hap.audio.conversion.repetition import one_period, with_repetitions
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB, is_noise, most_felt_hz
 from scene2hap.audio.loops.seam_search import (
@@ -23,7 +23,7 @@ from scene2hap.audio.loops.seam_search import (
 )
 from scene2hap.audio.loops.whole import is_between_silences, meets_itself, whole_loop
 from scene2hap.audio.protocol import ConversionContext, TactileConverter, follows_anchor
-from scene2hap.audio.seam import Seam, apply_seam
+from scene2hap.audio.seam import apply_seam
 from scene2hap.common import checks
 from scene2hap.errors import AudioError
 
@@ -136,13 +136,11 @@ def _looped(clip: AudioClip, converter: TactileConverter, context: ConversionCon
 
 
 def _repeated(loop: AudioClip, converter: TactileConverter, context: ConversionContext) -> tuple[Samples, Samples]:
-    """Return a clip that repeats as it is, and one period of its conversion, after as many as a converter needs."""
-    n, rate = len(loop.samples), loop.sample_rate_hz
-    n_before = math.ceil(_RUN_UP_S * rate / n)
-    repeated = replace(loop, samples=np.tile(loop.samples, n_before + 2), loop=None)
-    converted = convert_clip(repeated, converter, context).samples
-    seam = Seam(n_before * n, n, min(n, round(CROSSFADE_S * rate)), "linear").fitted(converted)
-    return loop.samples, apply_seam(converted, seam)
+    """Return a clip that repeats as it is, and one period of the conversion of its repetition."""
+    rate = loop.sample_rate_hz
+    n_around = round(PRE_ROLL_S * rate)
+    repeated = replace(loop, samples=with_repetitions(loop.samples, n_around), loop=None)
+    return loop.samples, one_period(convert_clip(repeated, converter, context).samples, n_around, rate)
 
 
 def _repeats_whole(clip: AudioClip) -> bool:

@@ -261,23 +261,30 @@ def _refined(
 
 def _exactly(x: Signal, weights: Signal, width: int, starts: NDArray[np.int64], lengths: NDArray[np.int64]) -> Signal:
     """Return the similarity (n,) of the stretches at `starts` and of those `lengths` behind them."""
-    stretches = sliding_window_view(x, width)
+    stretches, root = sliding_window_view(x, width), np.sqrt(weights)
     places, of_start = np.unique(starts, return_inverse=True)
-    ahead = scipy.fft.rfft(stretches[places], axis=1)
-    behind = scipy.fft.rfft(stretches[starts + lengths], axis=1)
-    total = _power(ahead, weights)[of_start] + _power(behind, weights)
+    ahead, behind, frames = (
+        _weighted(stretches[at], root) for at in (places, starts + lengths, slice(None, None, max(1, width // 2)))
+    )
+    total = _energies(ahead)[of_start] + _energies(behind)
     is_silent = total <= _SILENT * width * (x @ x) * np.mean(weights)
-    frames = scipy.fft.rfft(stretches[:: max(1, width // 2)], axis=1)
-    quiet = 2.0 * QUIET * float(_power(frames, weights).mean())
+    quiet = 2.0 * QUIET * float(_energies(frames).mean())
     products = np.empty(len(starts))
     for place, spectrum in enumerate(ahead):  # few starts, many lengths behind each
         mine = of_start == place
-        products[mine] = behind.real[mine] @ (spectrum.real * weights) + behind.imag[mine] @ (spectrum.imag * weights)
+        products[mine] = behind[mine] @ spectrum
     return np.where(is_silent, 0.0, (2.0 * products + quiet) / np.where(is_silent, 1.0, total + quiet))
 
 
-def _power(spectra: NDArray[np.complex128], weights: Signal) -> Signal:
-    return np.asarray((spectra.real**2 + spectra.imag**2) @ weights)
+def _weighted(stretches: Signal, root: Signal) -> Signal:
+    """Return the spectra of stretches (n, width), times a gain, as rows of real and imaginary parts in turn."""
+    spectra = scipy.fft.rfft(stretches, axis=1)
+    spectra *= root
+    return spectra.view(np.float64)
+
+
+def _energies(rows: Signal) -> Signal:
+    return np.asarray(np.einsum("ij,ij->i", rows, rows))
 
 
 def _centred(samples: ArrayLike) -> Signal:

@@ -45,9 +45,11 @@ def spread(
         return tuple(stay[voice] for voice in voices)
     for weber, counts_rhythm in ((WIDEST_WEBER, False), (FREQUENCY_WEBER, False), (FREQUENCY_WEBER, True)):
         problem = Problem.of(tuple(stay), actuator or ActuatorProfile(), limits, weber, counts_rhythm=counts_rhythm)
-        outcome = (
-            LinearProgramme(problem).solve() if len(problem.pairs) <= _EXACT_PAIRS else iterated_best_response(problem)
-        )
+        programme = LinearProgramme(problem) if len(problem.pairs) <= _EXACT_PAIRS else None
+        is_last = counts_rhythm
+        if programme is not None and not is_last and programme.is_infeasible(_ENOUGH_OCT):
+            continue  # the best of these placements would be dropped
+        outcome = iterated_best_response(problem) if programme is None else programme.solve()
         if outcome.shortage_oct < _ENOUGH_OCT:
             break
     placed = {

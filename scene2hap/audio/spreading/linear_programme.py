@@ -33,14 +33,11 @@ class LinearProgramme:
 
     def __init__(self, problem: Problem) -> None:
         self._problem = problem
-        self._n = len(problem.x0)
+        self._n = n = len(problem.x0)
         self._pairs = problem.pairs
         self._rows: list[dict[int, float]] = []
         self._least: list[float] = []
-
-    def solve(self) -> Outcome:
-        """Return the best placement found."""
-        problem, n, p = self._problem, self._n, len(self._pairs)
+        p = len(self._pairs)
         for i in range(n):
             for value, move, at in ((i, n + i, problem.x0[i]), (2 * n + i, 3 * n + i, problem.l0[i])):
                 self._row({move: 1.0, value: -1.0}, -at)
@@ -49,23 +46,46 @@ class LinearProgramme:
             self._keep_apart(number, *pair)
         for strong, weak, gap in problem.order:
             self._row({2 * n + strong: 1.0, 2 * n + weak: -1.0}, gap)
-        move_x, move_l, slack = 1.0 / problem.octaves, 1.0 / problem.level_db, _SLACK_WEIGHT
+        self._integrality = np.repeat([0, 1], [4 * n + p, 3 * p])
+        self._constraints = scipy.optimize.LinearConstraint(
+            self._matrix(len(self._integrality)), np.array(self._least), np.inf
+        )
+
+    def is_infeasible(self, shortage_oct: float) -> bool:
+        """Return True if at least one pair lacks more than `shortage_oct` [oct] in every placement.
+
+        This takes a millisecond. The best placement of such a programme takes a hundred times as long: the search has
+        to weigh the shortages of all pairs against each other.
+        """
+        infeasible = 2  # of scipy's codes
+        return bool(self._answer(0.0, 0.0, 0.0, most_slack=shortage_oct).status == infeasible)
+
+    def solve(self) -> Outcome:
+        """Return the best placement found."""
+        problem, n = self._problem, self._n
+        answer = self._answer(1.0 / problem.octaves, 1.0 / problem.level_db, _SLACK_WEIGHT)
+        if answer.x is None:  # the search was cut off before it had any answer
+            return Outcome(problem, problem.x0, problem.l0)
+        return Outcome(problem, answer.x[:n], answer.x[2 * n : 3 * n])
+
+    def _answer(
+        self, move_x: float, move_l: float, slack: float, most_slack: float = np.inf
+    ) -> scipy.optimize.OptimizeResult:
+        """Search for the least cost: of the moves of x and l, and of slack, per unit; no slack exceeds `most_slack`."""
+        problem, n, p = self._problem, self._n, len(self._pairs)
         never = np.full(n, np.inf)
         first, second = np.array(self._pairs, dtype=np.int64).reshape(-1, 2).T
         stronger, weaker = problem.l0[first] >= problem.l0[second], problem.l0[first] <= problem.l0[second]
         cost = _joined(n * [0.0], n * [move_x], n * [0.0], n * [move_l], p * [slack], 3 * p * [0.0])
         low = _joined(problem.x_low, n * [0.0], problem.l_low, n * [0.0], 4 * p * [0.0])
-        high = _joined(problem.x_high, never, problem.l_high, never, np.full(p, np.inf), p * [1.0], stronger, weaker)
-        answer = scipy.optimize.milp(
+        high = _joined(problem.x_high, never, problem.l_high, never, p * [most_slack], p * [1.0], stronger, weaker)
+        return scipy.optimize.milp(
             cost,
-            integrality=np.repeat([0, 1], [4 * n + p, 3 * p]),
+            integrality=self._integrality,
             bounds=scipy.optimize.Bounds(low, high),
-            constraints=scipy.optimize.LinearConstraint(self._matrix(len(cost)), np.array(self._least), np.inf),
+            constraints=self._constraints,
             options={"node_limit": _NODES},
         )
-        if answer.x is None:  # the search was cut off before it had any answer
-            return Outcome(problem, problem.x0, problem.l0)
-        return Outcome(problem, answer.x[:n], answer.x[2 * n : 3 * n])
 
     def _keep_apart(self, number: int, i: int, j: int) -> None:
         problem, n, p = self._problem, self._n, len(self._pairs)

@@ -106,6 +106,20 @@ def test_the_marked_part_is_the_loop_and_its_vibration_repeats(kind: str, n: int
     assert abs(loop.tactile.samples[0] - loop.tactile.samples[-1]) <= 1.1 * steps.max()
 
 
+def test_a_loop_whose_end_opposes_its_beginning_is_interrupted_for_milliseconds_only() -> None:
+    """A shift by 250.5 Hz turns by half a cycle in each second, so that a loop of one second ends in opposition.
+
+    A fade between opposed waves takes 20 ms. Of any 30 ms of the loop, 10 ms keep their level, so that these 30 ms keep
+    a third of their energy: -4.8 dB. With a fade of 0.2 s, 30 ms in its middle had -17 dB.
+    """
+    rate = 16_000
+    clip = AudioClip(tone(1.0, rate, 500.0), rate, loop=(0, rate))
+    converter = CONVERTERS.build({"kind": "frequency_shift", "shift_hz": -250.5})
+    felt = loop_pair(clip, converter, ConversionContext()).tactile.samples.astype(float)
+    energies = np.convolve(np.concatenate([felt, felt]) ** 2, np.ones(480), "valid")
+    assert energies.min() >= energies.max() / 3.0 * 0.9
+
+
 def test_a_choice_and_the_middle_of_a_clip_keep_the_marked_part() -> None:
     x = tone(30.0)
     clip = AudioClip(x, RATE, loop=(1000, 21_000))

@@ -1,14 +1,16 @@
 from __future__ import annotations
 
 import math
-from itertools import combinations
+from itertools import combinations, permutations
 
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from scene2hap.audio.actuators import ACTUATORS
 from scene2hap.audio.levels import drive_db, sensation_level_db
 from scene2hap.audio.spreading import Placement, SpreadLimits, Voice, spread
+from scene2hap.audio.spreading.linear_programme import LinearProgramme
 from scene2hap.audio.spreading.placements import LEVEL_STEP_DB, Outcome, Problem
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import ActuatorProfile
@@ -148,3 +150,67 @@ def test_spread_of_many_voices_improves_distinctness_within_limits() -> None:
 def test_spread_limits_out_of_bounds_are_refused() -> None:
     with pytest.raises(ConfigError, match="spread setting octaves"):
         SpreadLimits.parse({"octaves": 2.0})
+
+
+def shortage_in_a_row(problem: Problem) -> float:
+    """The least, over all orders, of the largest shortage of neighbours [oct], for voices that keep their levels.
+
+    For each order the voices are put as low as a given shortage allows, and this shortage is found by bisection.
+    """
+
+    def fits(order: tuple[int, ...], shortage: float) -> bool:
+        x = -math.inf
+        for i in order:
+            x = max(x, float(problem.x_low[i]))
+            if x > problem.x_high[i]:
+                return False
+            x += 2.0 * problem.jnd_oct - shortage
+        return True
+
+    low, high = 0.0, 2.0 * problem.jnd_oct
+    orders = [*permutations(range(len(problem.x0)))]
+    if any(fits(order, 0.0) for order in orders):
+        return 0.0
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if any(fits(order, middle) for order in orders) else (middle, high)
+    return high
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(st.floats(60.0, 400.0), min_size=2, max_size=5), st.floats(0.05, 1.0))
+def test_a_programme_is_infeasible_if_the_voices_do_not_fit_in_a_row(own_hz: list[float], octaves: float) -> None:
+    voices = [Voice(hz, 20.0, str(i)) for i, hz in enumerate(own_hz)]
+    problem = Problem.of(voices, FLAT, SpreadLimits(octaves=octaves, level_db=0.0), 0.22)
+    if len(problem.pairs) < math.comb(len(voices), 2):
+        return  # some voices cannot meet, so that more than neighbours would have to be compared
+    programme, least = LinearProgramme(problem), shortage_in_a_row(problem)
+    assert not programme.is_infeasible(least + 1e-3)
+    if least > 1e-3:
+        assert programme.is_infeasible(least - 1e-3)
+
+
+@pytest.mark.parametrize("actuator", ["flat", "lra", "drake_hf"])
+def test_placements_are_those_of_a_search_that_leaves_out_nothing(
+    actuator: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rng = np.random.default_rng(23)
+    profile = ACTUATORS[actuator]
+    low, high = max(60.0, profile.min_frequency_hz), min(300.0, profile.max_frequency_hz)
+    scenes = [
+        [Voice(float(rng.uniform(low, high)), float(rng.choice([14.0, 20.0, 26.0])), str(i)) for i in range(n)]
+        for n in (2, 3, 4, 5)
+        for _ in range(3)
+    ]
+    placed = [spread(voices, profile) for voices in scenes]
+    monkeypatch.setattr(LinearProgramme, "is_infeasible", lambda *_: False)
+    assert placed == [spread(voices, profile) for voices in scenes]
+
+
+def test_no_best_placement_is_searched_among_distances_that_do_not_fit(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Five voices do not fit into the 0.8 octaves of a small motor: four pairs of neighbours need 2.3 octaves."""
+    solved = []
+    solve = LinearProgramme.solve
+    monkeypatch.setattr(LinearProgramme, "solve", lambda self: solved.append(self) or solve(self))
+    spread([Voice(hz, 20.0, str(hz)) for hz in (140.0, 150.0, 160.0, 170.0, 180.0)], ACTUATORS["lra"])
+    assert len(solved) == 1

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
 
 Signal = NDArray[np.float64]
@@ -100,7 +101,7 @@ def noise(rng: np.random.Generator, low_hz: float, high_hz: float, tilt_db_per_o
     in_band = (f >= low_hz) & (f <= high_hz)
     weight = np.zeros_like(f)
     weight[in_band] = (f[in_band] / low_hz) ** (tilt_db_per_octave / (20.0 * np.log10(2.0)))
-    return unit_rms(np.fft.irfft(weight * np.fft.rfft(rng.standard_normal(N_SAMPLES)), N_SAMPLES))
+    return unit_rms(scipy.fft.irfft(weight * scipy.fft.rfft(rng.standard_normal(N_SAMPLES)), N_SAMPLES))
 
 
 def ringing(times_s: ArrayLike, strengths: ArrayLike, frequency_hz: float, decay_s: float) -> Signal:
@@ -111,7 +112,7 @@ def ringing(times_s: ArrayLike, strengths: ArrayLike, frequency_hz: float, decay
     )
     t = times()
     response = np.exp(-t / decay_s) * np.sin(2.0 * np.pi * frequency_hz * t)
-    return np.fft.irfft(np.fft.rfft(strokes) * np.fft.rfft(response), N_SAMPLES)
+    return scipy.fft.irfft(scipy.fft.rfft(strokes) * scipy.fft.rfft(response), N_SAMPLES)
 
 
 def unit_rms(y: Signal) -> Signal:

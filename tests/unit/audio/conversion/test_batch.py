@@ -9,7 +9,7 @@ import pytest
 import soundfile
 
 from scene2hap import audio
-from scene2hap.audio.conversion import Conversion, Failure
+from scene2hap.audio.conversion import Conversion, Failure, batch
 from scene2hap.errors import AudioError, ConfigError
 
 RATE = 8000
@@ -52,6 +52,30 @@ def test_several_worker_processes_write_the_same_bytes_as_one(tmp_path: Path) ->
         assert [type(outcome) for outcome in outcomes] == [Conversion, Failure, Conversion]
     for name in ("a.wav", "c.wav"):
         assert (tmp_path / "1" / name).read_bytes() == (tmp_path / "2" / name).read_bytes()
+
+
+def test_short_sounds_start_no_processes_and_many_bytes_of_them_do(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A process takes half a second to start, and a sound of some seconds 0.04 s to convert."""
+    begun = []
+
+    def refused(n_workers: int) -> None:
+        begun.append(n_workers)
+        raise AudioError("no pool in this test")
+
+    monkeypatch.setattr(batch, "worker_processes", refused)
+    monkeypatch.setattr(batch.os, "cpu_count", lambda: 4)
+    sources = [write(tmp_path / f"{n}.wav") for n in range(5)]
+    assert all(isinstance(one, Conversion) for one in audio.convert_files(sources, tmp_path / "short"))
+    assert not begun
+    monkeypatch.setattr(batch, "_WORTH_BYTES", 2 * sources[0].stat().st_size)
+    with pytest.raises(AudioError, match="no pool"):
+        audio.convert_files(sources, tmp_path / "long")
+    assert begun == [3]  # five sounds, two of which are worth a process
+    with pytest.raises(AudioError, match="no pool"):
+        audio.convert_files(sources, tmp_path / "asked", workers=2)
+    assert begun == [3, 2]
 
 
 def test_second_run_skips_outputs_of_the_first_run(tmp_path: Path) -> None:

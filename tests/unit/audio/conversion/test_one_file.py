@@ -74,6 +74,34 @@ def test_stream_converts_each_channel_for_any_block_size(tmp_path: Path, monkeyp
         np.testing.assert_allclose(felt, np.stack(whole, axis=1), rtol=0, atol=0.51 / 2**23)
 
 
+@pytest.mark.parametrize("suffix", [".wav", ".ogg", ".mp3"])
+def test_a_sound_of_seconds_is_decoded_once(tmp_path: Path, suffix: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Offset, peak, middle and blocks were read one after the other; decoding was a sixth of a conversion."""
+    source, decoded = tmp_path / f"a{suffix}", []
+    soundfile.write(source, sound(3.0), RATE)
+    n_frames = soundfile.info(source).frames
+    read = soundfile.SoundFile.read
+
+    def counted(file: soundfile.SoundFile, *given: object, **options: object) -> np.ndarray:
+        frames = read(file, *given, **options)
+        decoded.append(len(frames))
+        return frames
+
+    monkeypatch.setattr(soundfile.SoundFile, "read", counted)
+    audio.convert(source, tmp_path / "felt.wav", mono=True)
+    assert sum(decoded) == n_frames
+
+
+def test_a_long_sound_is_converted_like_a_short_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A short one is decoded once, a long one several times; floats above full scale need every pass over the file."""
+    source = write(tmp_path / "a.wav", 4.0 * sound(3.0) + 0.2, subtype="FLOAT")
+    made = {}
+    for longest_s in (10.0, 1.0):
+        monkeypatch.setattr(reading, "_MIDDLE_S", longest_s)
+        made[longest_s] = audio.convert(source, tmp_path / f"{longest_s}.wav", converter="svf_bandpass").output
+    assert made[10.0].read_bytes() == made[1.0].read_bytes()
+
+
 def most_felt_of(path: Path) -> float:
     """What a bake reports of the same signal, as the sum of its channels, which have different frequencies here."""
     samples, rate = soundfile.read(path)

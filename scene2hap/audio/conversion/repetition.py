@@ -1,0 +1,30 @@
+"""A loop that is converted as if it were repeated for ever: what a converter hears, and the loop in what it makes.
+
+The converter is settled when the loop begins. What it makes of the repetition after the end fades to the beginning.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.audio.clip import Samples
+from scene2hap.audio.seam import Seam, apply_seam
+
+_FADE_S = 0.02
+"""Length of the cross-fade [s]. The oscillator of a converter may have another phase after the end than at the
+beginning, and opposed waves cancel each other in a fade. With 0.2 s, the level of 30 ms fell by up to 15 dB, and by
+more than 3 dB in 17 of 42 loops through `auto`; with 0.02 s by up to 7 dB, and in 8. With either, what is left at the
+seam above 1 kHz is at least 60 dB below the vibration."""
+
+
+def with_repetitions(loop: NDArray[np.float32], n_around: int) -> NDArray[np.float32]:
+    """Return a loop (n, ...) with `n_around` frames of its repetitions before and after it (n + 2 n_around, ...)."""
+    return loop[np.arange(-n_around, len(loop) + n_around) % len(loop)]
+
+
+def one_period(felt: Samples, n_around: int, sample_rate_hz: int) -> Samples:
+    """Return the loop (n,) in the conversion of `with_repetitions` (n + 2 n_around,); its end meets its beginning."""
+    n = len(felt) - 2 * n_around
+    seam = Seam(n_around, n, min(n // 2, round(_FADE_S * sample_rate_hz)), "linear")
+    return apply_seam(felt, seam.fitted(felt))
