@@ -14,8 +14,6 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from scene2hap.audio.filter_design import butterworth
-
 Signal = NDArray[np.float64]
 
 HALVED_HZ = 15.0
@@ -24,7 +22,7 @@ HALVED_HZ = 15.0
 
 def heard_sections(sample_rate_hz: float) -> Signal:
     """Return the high-pass as sections (2, 6) for `SosStage`."""
-    section = butterworth(2, min(HALVED_HZ, 0.4 * sample_rate_hz), sample_rate_hz, "high")
+    section = scipy.signal.butter(2, min(HALVED_HZ, 0.4 * sample_rate_hz), "highpass", fs=sample_rate_hz, output="sos")
     return np.concatenate([section, section])
 
 

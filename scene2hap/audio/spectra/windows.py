@@ -8,5 +8,4 @@ from numpy.typing import NDArray
 
 def hann(n: int) -> NDArray[np.float64]:
     """Return Hann's window (n,) without the zeros at its ends, which would leave out two samples."""
-    rising: NDArray[np.float64] = 0.5 + 0.5 * np.cos(np.pi * np.arange(1.0 - n, 1.0, 2.0) / (n + 1))
-    return np.concatenate([rising, rising[: n // 2][::-1]])
+    return np.hanning(n + 2)[1:-1]

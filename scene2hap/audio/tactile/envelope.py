@@ -14,8 +14,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
-from scene2hap.audio.filter_design import butterworth
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.stages import Signal, SosStage, Stage, StageStream
@@ -54,7 +54,7 @@ class EnvelopeCarrier:
 
 class _EnvelopeStage(Stage):
     def __init__(self, carrier_hz: float, envelope_hz: float, sample_rate_hz: float) -> None:
-        self._smooth = SosStage(butterworth(2, envelope_hz, sample_rate_hz))
+        self._smooth = SosStage(scipy.signal.butter(2, envelope_hz, fs=sample_rate_hz, output="sos"))
         self._carrier = Oscillator(carrier_hz, sample_rate_hz)
         self._position = 0
 

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scene2hap.audio.filter_design import butterworth
+import scipy
+
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.stages import SosStage, StageStream
 from scene2hap.common import checks
@@ -34,4 +35,4 @@ class Lowpass:
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
         """Start a filter at a sample rate; the context has no effect."""
         checks.number("cutoff_hz", self.cutoff_hz, "Hz", at_most=_HIGHEST_CUTOFF * sample_rate_hz, error=ConfigError)
-        return StageStream(SosStage(butterworth(_ORDER, self.cutoff_hz, sample_rate_hz)))
+        return StageStream(SosStage(scipy.signal.butter(_ORDER, self.cutoff_hz, fs=sample_rate_hz, output="sos")))

@@ -8,9 +8,9 @@ lifts the flanks of the resonance by `MAX_BOOST_DB` inside the actuator's band. 
 from __future__ import annotations
 
 import numpy as np
+import scipy
 
 from scene2hap.audio.actuators import MAX_BOOST_DB, inverse_db, response_db
-from scene2hap.audio.filter_design import butterworth_band
 from scene2hap.audio.tactile.stages import SosStage, Stage
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.haptics import ActuatorProfile
@@ -29,7 +29,7 @@ def played_band(actuator: ActuatorProfile, sample_rate_hz: float) -> Stage:
     """Return a filter that leaves what an actuator plays."""
     high_hz = min(actuator.max_frequency_hz, _HIGHEST * sample_rate_hz)
     edges_hz = min(_INSIDE * actuator.min_frequency_hz, 0.5 * high_hz), high_hz / _INSIDE
-    return SosStage(butterworth_band(_ORDER, *edges_hz, sample_rate_hz))
+    return SosStage(scipy.signal.butter(_ORDER, edges_hz, "bandpass", fs=sample_rate_hz, output="sos"))
 
 
 def motion(actuator: ActuatorProfile, sample_rate_hz: float, *, is_compensated: bool) -> Stage | None:

@@ -10,10 +10,10 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from scene2hap.audio.clip import Samples
-from scene2hap.audio.filter_design import elliptic
 from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.sections import through_sections
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ
@@ -175,8 +175,12 @@ class ShiftStage(Stage):
         stop = width + min(max(low_hz - lowest_hz, self._NARROWEST * width), self._WIDEST * width)
         self._down = Oscillator(middle_hz, sample_rate_hz)
         self._up = Oscillator(middle_hz + shift_hz, sample_rate_hz)
-        stop = min(stop, 0.49 * sample_rate_hz)
-        self._sections = elliptic(width, stop, self._RIPPLE_DB, self._STOP_DB, sample_rate_hz)
+        order, _ = scipy.signal.ellipord(
+            width, min(stop, 0.49 * sample_rate_hz), self._RIPPLE_DB, self._STOP_DB, fs=sample_rate_hz
+        )
+        self._sections = scipy.signal.ellip(
+            order, self._RIPPLE_DB, self._STOP_DB, width, fs=sample_rate_hz, output="sos"
+        )
         self._state = np.zeros((len(self._sections), 2, 2))
         self._position = 0
 
