@@ -72,7 +72,9 @@ class EmphasizedAttacks(Stage):
         for k in self._attacks(n):
             rise, felt = (_rise(energies[k : k + BEFORE + LASTS]) for energies in (self._sound, self._made))
             gains[k : k + LASTS] = min(max(min(rise * JND, CLEAR) / felt, 1.0), JND) ** 0.5
-        out = faded(self._waiting[: n * self._step], gains[: n + 1], self._rising)
+        out = self._waiting[: n * self._step]
+        if (gains[: n + 1] != 1.0).any():
+            out = faded(out, gains[: n + 1], self._rising)
         self._waiting, self._gains = self._waiting[n * self._step :], gains[n:]
         self._sound, self._made = self._sound[n:], self._made[n:]
         return out

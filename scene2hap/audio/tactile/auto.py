@@ -11,6 +11,7 @@ roughness, a tick by its time. The output has two parts, a bed for the continuou
 - If it is too high, as in a beep of 2 kHz, only its envelope is felt, on a carrier (`envelope`). A shifted band would
   lose the other notes of a melody.
 - Each short onset becomes a burst (`bursts`).
+- A sudden rise that is felt less clearly than it is heard is lifted (`attacks`), except in a live stream.
 """
 
 from __future__ import annotations
