@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from scene2hap.audio.conversion.clips import PRE_ROLL_S
 from scene2hap.audio.conversion.meter import Block, Meter
-from scene2hap.audio.files import MAX_SAMPLE, Mixdown, require_finite
+from scene2hap.audio.files import MAX_SAMPLE, Mixdown, opened_sound, require_finite
 from scene2hap.audio.loop_marks import LONGEST_MARK_S, SHORTEST_MARK_S
 from scene2hap.audio.tactile.sections import through_sections
 from scene2hap.errors import AudioError
@@ -26,7 +26,10 @@ _SLOWEST_HZ = 1.0
 
 
 class SoundReader:
-    """Reads an open sound file, of which `meter` measures each block.
+    """Reads an open sound file once, of which `meter` measures each block.
+
+    Other passes open the file for themselves: libsndfile 1.2.2 cannot return to the beginning of a Vorbis file whose
+    beginning was cut off.
 
     Parameters:
     mono : mix the channels by their mean, or take the strongest if they cancel each other in the middle of the file.
@@ -57,9 +60,9 @@ class SoundReader:
     def middle(self) -> Block:
         """Return all channels of the middle of the file (n, n_channels), at most `_MIDDLE_S`."""
         n = round(_MIDDLE_S * self.rate)
-        self._file.seek(max(0, int(self._file.frames) - n) // 2)
-        channels: Block = self._file.read(n, dtype="float32", always_2d=True)
-        self._file.seek(0)
+        with opened_sound(self._source) as file:
+            file.seek(max(0, int(file.frames) - n) // 2)
+            channels: Block = file.read(n, dtype="float32", always_2d=True)
         return channels
 
     def blocks(self) -> Iterator[Block]:
@@ -108,16 +111,15 @@ class SoundReader:
         if self._file.subtype.startswith("PCM_"):
             return 0.0
         peak = 0.0
-        while len(block := self._file.read(BLOCK_FRAMES, dtype="float32", always_2d=True)):
-            with np.errstate(over="ignore"):
+        with opened_sound(self._source) as file, np.errstate(over="ignore"):
+            for block in file.blocks(BLOCK_FRAMES, dtype="float32", always_2d=True):
                 peak = max(peak, float(np.abs(self._mixed(block)).max()))
-        self._file.seek(0)
         return peak if peak <= MAX_SAMPLE else 0.0
 
     def _first_offsets(self) -> NDArray[np.float64]:
         """Return the offset of each channel at the beginning of the file."""
-        head = self._file.read(_OFFSET_FRAMES, dtype="float32", always_2d=True)
-        self._file.seek(0)
+        with opened_sound(self._source) as file:
+            head = file.read(_OFFSET_FRAMES, dtype="float32", always_2d=True)
         if not len(head) or not np.isfinite(head).all():  # the conversion raises an error for this
             return np.zeros(self.channels)
         offsets: NDArray[np.float64] = self._mixed(head).mean(axis=0, dtype=np.float64)
