@@ -80,10 +80,10 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
         blocks = [mixdown.mean(block).astype(np.float32) for block in _blocks(path, file)]
         strongest = mixdown.strongest
         if strongest is not None:
-            file.seek(0)
-            blocks = [
-                block[:, strongest].copy() for block in file.blocks(_BLOCK_FRAMES, dtype="float32", always_2d=True)
-            ]
+            with opened_sound(path) as again:  # a Vorbis file that was cut cannot be rewound
+                blocks = [
+                    block[:, strongest].copy() for block in again.blocks(_BLOCK_FRAMES, dtype="float32", always_2d=True)
+                ]
         samples = np.concatenate(blocks)
         loop = marked_loop(path, len(samples), rate)
     try:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scene2hap.audio.conversion.clips import PRE_ROLL_S
 from scene2hap.audio.conversion.meter import Block, Meter
 from scene2hap.audio.conversion.repetition import with_repetitions
-from scene2hap.audio.files import MAX_SAMPLE, Mixdown, require_finite
+from scene2hap.audio.files import MAX_SAMPLE, Mixdown, opened_sound, require_finite
 from scene2hap.audio.loop_marks import LONGEST_MARK_S, SHORTEST_MARK_S
 from scene2hap.audio.tactile.sections import through_sections
 from scene2hap.errors import AudioError
@@ -28,7 +28,10 @@ _SLOWEST_HZ = 1.0
 
 
 class SoundReader:
-    """Reads an open sound file, of which `meter` measures each block.
+    """Reads a sound file, of which `meter` measures each block.
+
+    Each pass opens the file for itself: libsndfile 1.2.2 cannot return to the beginning of a Vorbis file whose
+    beginning was cut off.
 
     Parameters:
     mono : mix the channels by their mean, or take the strongest if they cancel each other in the middle of the file.
@@ -61,8 +64,9 @@ class SoundReader:
         n = round(_MIDDLE_S * self.rate)
         if self._whole is not None:
             return self._whole
-        self._file.seek(max(0, int(self._file.frames) - n) // 2)
-        return self._read(n)
+        with opened_sound(self._source) as file:
+            file.seek(max(0, int(file.frames) - n) // 2)
+            return _read(file, n)
 
     def blocks(self) -> Iterator[Block]:
         """Yield the whole file in blocks (n, channels).
@@ -129,7 +133,8 @@ class SoundReader:
         most = round(_MIDDLE_S * self.rate)
         if self._file.frames > most:
             return None
-        channels = self._read(most + 1)
+        with opened_sound(self._source) as file:
+            channels = _read(file, most + 1)
         return channels if len(channels) <= most else None  # the length of an MP3 is an estimate
 
     def _parts(self, n_frames: int) -> Iterator[Block]:
@@ -138,13 +143,9 @@ class SoundReader:
         if whole is not None:
             yield from (whole[at : at + n_frames] for at in range(0, len(whole), n_frames))
             return
-        self._file.seek(0)
-        while len(part := self._read(n_frames)):
-            yield part
-
-    def _read(self, n_frames: int) -> Block:
-        channels: Block = self._file.read(n_frames, dtype="float32", always_2d=True)
-        return channels
+        with opened_sound(self._source) as file:
+            while len(part := _read(file, n_frames)):
+                yield part
 
     def _mixed(self, block: Block) -> Block:
         """Return the channels, or in mono their mean or the one that stands for all, as (n, 1)."""
@@ -154,6 +155,11 @@ class SoundReader:
             return np.ascontiguousarray(block[:, self._strongest, None])
         mean: Block = block.mean(axis=1, keepdims=True, dtype=np.float32)
         return mean
+
+
+def _read(file: soundfile.SoundFile, n_frames: int) -> Block:
+    channels: Block = file.read(n_frames, dtype="float32", always_2d=True)
+    return channels
 
 
 def _repeated(blocks: Iterator[Block], n_around: int) -> Iterator[Block]:

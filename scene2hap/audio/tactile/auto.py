@@ -11,6 +11,7 @@ roughness, a tick by its time. The output has two parts, a bed for the continuou
 - If it is too high, as in a beep of 2 kHz, only its envelope is felt, on a carrier (`envelope`). A shifted band would
   lose the other notes of a melody.
 - Each short onset becomes a burst (`bursts`).
+- A sudden rise that is felt less clearly than it is heard is lifted (`attacks`), except in a live stream.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from scene2hap.audio.levels import drive_db, sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.spectra.heard import heard_sections
 from scene2hap.audio.tactile.adaptive import Adaptive, band_around
+from scene2hap.audio.tactile.attacks import EmphasizedAttacks
 from scene2hap.audio.tactile.bursts import WithBursts
 from scene2hap.audio.tactile.envelope import EnvelopeCarrier
 from scene2hap.audio.tactile.following import HEADROOM_DB, LevelFollower
@@ -76,7 +78,8 @@ class Auto(Adaptive):
             bed = Roughened(bed, band, line, context.rough_hz, sample_rate_hz, depth=depth)
         share_db = bed_db if is_known else None
         with_bursts = WithBursts(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known, bed_db=share_db)
-        parts: list[Stage] = [WholeSteps(with_bursts.step), SosStage(heard_sections(sample_rate_hz)), with_bursts]
+        parts: list[Stage] = [WholeSteps(with_bursts.step), SosStage(heard_sections(sample_rate_hz))]
+        parts.append(EmphasizedAttacks(with_bursts, with_bursts.step) if is_known else with_bursts)
         if bed_db is None:
             return StageStream(*parts)
         return StageStream(*parts, Scaled(_ROOM if rendered is None else _ROOM * 10 ** (-HEADROOM_DB / 20)))

@@ -217,3 +217,40 @@ def test_a_loop_says_so_in_its_header(n: int, channels: int) -> None:
 
 def test_only_loops_have_the_chunk_of_loops() -> None:
     assert b"smpl" not in encoded(tone(), RATE)
+
+
+def without_beginning(vorbis: bytes, n: int) -> bytes:
+    """The file as an editor leaves it that cuts off n samples without encoding again: its pages count from there on."""
+    table = []
+    for byte in range(256):
+        register = byte << 24
+        for _ in range(8):
+            register = (register << 1 ^ (0x04C11DB7 if register & 1 << 31 else 0)) & 0xFFFFFFFF
+        table.append(register)
+    pages, at = [], 0
+    while at < len(vorbis):
+        n_segments = vorbis[at + 26]
+        page = bytearray(vorbis[at : at + 27 + n_segments + sum(vorbis[at + 27 : at + 27 + n_segments])])
+        at += len(page)
+        (n_before,) = struct.unpack_from("<q", page, 6)
+        if n_before:
+            struct.pack_into("<qIII", page, 6, n_before - n, *struct.unpack_from("<II", page, 14), 0)
+            checksum = 0
+            for byte in page:
+                checksum = (checksum << 8 & 0xFFFFFFFF) ^ table[checksum >> 24 ^ byte]
+            struct.pack_into("<I", page, 22, checksum)
+        pages.append(bytes(page))
+    return b"".join(pages)
+
+
+@pytest.mark.parametrize("is_cancelled", [False, True])
+def test_a_vorbis_file_whose_beginning_was_cut_off_is_read_and_converted(tmp_path: Path, is_cancelled: bool) -> None:
+    """libsndfile 1.2.2 reads such a file, but cannot return to its beginning."""
+    noise = 0.3 * np.random.default_rng(0).standard_normal(40_000)
+    right = -noise if is_cancelled else noise
+    soundfile.write(tmp_path / "whole.ogg", np.stack([noise, right], axis=1), 44_100)
+    path = tmp_path / "cut.ogg"
+    path.write_bytes(without_beginning((tmp_path / "whole.ogg").read_bytes(), 500))
+    assert len(read_clip(path).samples) == 39_500
+    audio.convert(path, tmp_path / "felt.wav", mono=True)
+    assert soundfile.info(tmp_path / "felt.wav").frames == 39_500
