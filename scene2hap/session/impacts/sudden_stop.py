@@ -60,12 +60,15 @@ class SuddenStop:
             is_last_whole = i == len(steps) - 3 and stands_still
             loss = min(fastest / WHOLE, max(speed - now, speed / WHOLE if is_last_whole else 0.0))
             brakes = BRAKES_M_S2 * between_s
-            if loss > min(brakes, BRAKES_M_S):
-                noise_m, falls = _noise(track, normal)
-                is_stall = max(lasted_s, lasts_s) > STALL * min(lasted_s, lasts_s)
-                most = brakes if is_stall and not falls else min(brakes, BRAKES_M_S)
-                if loss > most + (0.0 if falls else min(TREMBLES * noise_m / between_s, TREMBLES_M_S)):
-                    return True
+            least = min(brakes, BRAKES_M_S)
+            if loss <= least:
+                continue
+            most = brakes if max(lasted_s, lasts_s) > STALL * min(lasted_s, lasts_s) else least
+            if loss > most + TREMBLES_M_S:
+                return True
+            noise_m, falls = _noise(track, normal)
+            if falls or loss > most + min(TREMBLES * noise_m / between_s, TREMBLES_M_S):
+                return True
         return False
 
     def _steps(
