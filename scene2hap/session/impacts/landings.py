@@ -164,7 +164,11 @@ class Landings:
                     and (change >= _SUDDEN * dot(before, before) or not tracks.keys().isdisjoint(self._met(object_id)))
                 ):
                     changed.append(object_id)
-            elif (track.has_stopped(now) or track.has_stopped(now - 1)) and beside.get(object_id) and track.is_falling:
+            elif (
+                (track.has_stopped(now) or track.still_stands(now, self._before_s, time_s))
+                and beside.get(object_id)
+                and track.is_falling
+            ):
                 stopped.append(object_id)
             elif track.is_at_rest(now):
                 at_rest.append(object_id)

@@ -27,6 +27,8 @@ UNEVEN = 3
 """Largest ratio of two gaps of slow physics: at 60 Hz, physics at 30 Hz has a step in every second frame, or after one
 and three if these are uneven. A longer gap was a hold."""
 
+SLOW_STEP_S = 0.025
+"""Longest step of slower physics whose first gap is not known [s]: 40 Hz."""
 JUMP, JUMP_M_S2 = 10.0, 30.0
 """A step that is so many times as long as the one before, by more than such an acceleration, or as the one after, is a
 jump: a teleport between the trembling of a tracker. A fall in two or three frames also has steps of very unequal
@@ -96,6 +98,12 @@ class MotionTrack:
     def has_stopped(self, update: int) -> bool:
         """Whether the next step is missing since exactly this update."""
         return self.steps[-1][0] + math.ceil(self.gap) == update
+
+    def still_stands(self, update: int, before_s: float, time_s: float) -> bool:
+        """Whether the next step is missing since an earlier update, and slower physics would have made it since exactly
+        this one; before_s, time_s : times of the update before and of this one."""
+        first, since_s = self.steps[-1][0] + math.ceil(self.gap), self.steps[-1][1] + SLOW_STEP_S
+        return update > first and time_s >= since_s and (update == first + 1 or before_s < since_s)
 
     def is_at_rest(self, update: int) -> bool:
         """Whether the motion has ended: no further step can belong to it."""

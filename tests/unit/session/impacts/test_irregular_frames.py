@@ -146,6 +146,7 @@ def test_object_that_falls_lands_once(frames: Frames, least: float, most: float,
         assert len(found) <= 1
         if len(seen) > 2 and (frames not in (stalls, physics) or max(seen) - held_s > 0.06):
             assert len(found) == 1, seed
+            assert found[0].point_m[1] == pytest.approx(0.7, abs=2e-3)  # not in mid air
             ratios.append(found[0].speed_m_s / (G * falls_s))
     assert not ratios or least < np.mean(ratios) < most
 
