@@ -136,9 +136,7 @@ class MotionTrack:
                 gap = min(max(gap, waited), UNEVEN * waited)
             self.gap = gap if gap > 1.0 else 1.0
             here = x * x + y * y + z * z
-            lasts_s, lasted_s = time_s - last_s, last_s - self.steps[-2][1] if len(self.steps) > 1 else 0.0
-            longer = max(1.0, lasts_s / lasted_s) if lasted_s > 0 else 1.0
-            jumps = here > (JUMP * longer) ** 2 * before and here > (JUMP_M_S2 * lasts_s**2) ** 2 > 0
+            jumps = here > JUMP**2 * before and self._jumps(here, before, time_s - last_s)
             jumped = self.n_steps == 1 and JUMP * onward < before
             if onward <= 0 or jumps or jumped:
                 stopped_m = self.stopped_m
@@ -150,6 +148,12 @@ class MotionTrack:
         self.steps.append((update, time_s, pose))
         if len(self.steps) > 4 * MOST_STEPS:
             del self.steps[: -2 * MOST_STEPS]
+
+    def _jumps(self, here: float, before: float, lasts_s: float) -> bool:
+        """Whether a step is a jump, by its square, that of the step before [m2] and its duration."""
+        lasted_s = self.steps[-1][1] - self.steps[-2][1] if len(self.steps) > 1 else 0.0
+        longer = max(1.0, lasts_s / lasted_s) if lasted_s > 0 else 1.0
+        return here > (JUMP * longer) ** 2 * before and here > (JUMP_M_S2 * lasts_s**2) ** 2 > 0
 
     def run(self, n_without: int = 0, window_s: float = WINDOW_S, most: int = MOST_STEPS) -> list[tuple[int, float]]:
         """Return the numbers and times [s] of the latest steps in one direction, at least two, without the last few."""

@@ -55,6 +55,7 @@ class SuddenStop:
         track = self._motion.tracks[object_id]
         steps = self._steps(object_id, other, point_m, normal, run)
         fastest, stands_still = max(speed for speed, _ in steps[:-1]), steps[-1][0] == 0
+        usual_s = min(lasts_s for _, lasts_s in steps)
         for i, ((speed, lasted_s), (now, lasts_s)) in enumerate(pairwise(steps[-3:]), max(0, len(steps) - 3)):
             between_s = (lasted_s + lasts_s) / 2
             is_last_whole = i == len(steps) - 3 and stands_still
@@ -63,7 +64,7 @@ class SuddenStop:
             least = min(brakes, BRAKES_M_S)
             if loss <= least:
                 continue
-            most = brakes if max(lasted_s, lasts_s) > STALL * min(lasted_s, lasts_s) else least
+            most = brakes if max(lasted_s, lasts_s) > STALL * usual_s else least
             if loss > most + TREMBLES_M_S:
                 return True
             noise_m, falls = _noise(track, normal)
