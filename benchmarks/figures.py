@@ -157,6 +157,7 @@ FIGURES = {
         has_times=True,
         needs="scenes",
     ),
+    "irregular-frames": Figure("impacts", "benchmarks/irregular_frames.py", 2),
     "closing-speeds": Figure("impacts", "benchmarks/closing_speeds.py", 1),
     "engine-links": Figure("engines", "benchmarks/engine_links.py", 0.5, has_times=True),
     "bridge": Figure("bridge", "benchmarks/bridge.py", 1.5, has_times=True),

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from itertools import pairwise
 from typing import NamedTuple
 
 from scene2hap.contact.graph import ContactGraph
@@ -34,6 +33,7 @@ from scene2hap.session.impacts.motion_track import (
 )
 from scene2hap.session.impacts.relative_motion import RelativeMotion
 from scene2hap.session.impacts.slams import RelativePoses, Slam
+from scene2hap.session.impacts.sudden_stop import SuddenStop
 
 LEAST_SPEED_M_S = 0.1
 """A cup put down more slowly is as good as not felt, and trackers shake as fast."""
@@ -41,15 +41,6 @@ FASTEST_M_S = 10.0
 """A faster motion is no fall (5 m): the game has moved the object elsewhere."""
 HEAD_ON = 0.5
 """Smallest share of the travel that is along the contact normal: an object that slides does not land."""
-BRAKES_M_S2, BRAKES_M_S = 10.0, 0.2
-"""Largest deceleration by a hand that carries, lowers or shakes an object, and largest loss of speed by a hand from one
-step to the next; assumed. Below 50 Hz the latter is the smaller bound, since a short fall lasts for few frames."""
-TREMBLES, TREMBLES_M_S = 3.5, 0.25
-"""Largest loss of speed by the noise of a tracker, as standard deviations of a place per step, and in m/s. With 3 more
-false landings are found, with 5 no fall from 1 cm is."""
-WHOLE = 1.5
-"""Slowest landing, as a multiple of this loss. One that is slower would be found or not by the time in a frame at which
-the objects meet."""
 ROLLS = 0.25
 """Smallest share of an object's middle in the approach of its part at the contact: the middle of a rolling object does
 not approach the floor."""
@@ -96,11 +87,13 @@ class Landings:
         self._period_s = period_s
         self._motion = RelativeMotion(graph)
         self._closing = ClosingSpeed(self._motion, period_s, up_axis)
+        self._stop = SuddenStop(self._motion, period_s)
         self._approaches = Approaches(graph, self._motion, half_m, slam, drawer)
         self._near: dict[str, dict[str, Junction]] = {}
         """Contacts of each moving object before the present step, and in all of its updates but the last."""
         self._moved: dict[str, None] = {}
-        self._n_waiting, self._looked_s, self._clock_runs = 0, 0.0, False
+        self._looked_s, self._before_s = 0.0, 0.0
+        self._n_waiting, self._clock_runs = 0, False
 
     def forget(self) -> None:
         """Forget all motions. Call it after a pause: the clock stood still, so that their speeds are unknown."""
@@ -145,7 +138,8 @@ class Landings:
         self._n_waiting += 1
         if self._clock_runs and since_s < SHORTEST_S and self._n_waiting < MOST_UPDATES:
             return True
-        self._n_waiting, self._looked_s, self._clock_runs = 0, time_s, since_s > 0
+        self._n_waiting, self._clock_runs = 0, since_s > 0
+        self._before_s, self._looked_s = self._looked_s, time_s
         return False
 
     def _look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
@@ -170,7 +164,11 @@ class Landings:
                     and (change >= _SUDDEN * dot(before, before) or not tracks.keys().isdisjoint(self._met(object_id)))
                 ):
                     changed.append(object_id)
-            elif (track.has_stopped(now) or track.has_stopped(now - 1)) and beside.get(object_id) and track.is_falling:
+            elif (
+                (track.has_stopped(now) or track.still_stands(now, self._before_s, time_s))
+                and beside.get(object_id)
+                and track.is_falling
+            ):
                 stopped.append(object_id)
             elif track.is_at_rest(now):
                 at_rest.append(object_id)
@@ -179,7 +177,7 @@ class Landings:
             stopped += [x for x in changed if tracks[x].is_falling and self._is_sudden(x, steps_m)]
         found = [one for object_id in stopped for one in self._landing(object_id, tracks[object_id], time_s)]
         for _, track, pose, (step_m, middle_m) in moving:
-            track.follow(now, time_s, pose, step_m, middle_m)
+            track.follow(now, self._before_s, time_s, pose, step_m, middle_m)
         for object_id in at_rest:
             del tracks[object_id]
         if not found:
@@ -264,35 +262,12 @@ class Landings:
                 middle_m = self._motion.middle_nearing_m(object_id, other, point, normal, first, last)
                 if onward > most or middle_m < ROLLS * closing:
                     continue
-                if not self._stops_suddenly(object_id, other, point, normal, [*steps, (now, time_s)]):
+                if not self._stop.is_sudden(object_id, other, point, normal, [*steps, (now, time_s)]):
                     continue
                 if one.meets is None or one.meets():
                     speed = self._closing.speed(object_id, other, point, normal, runs, onward, time_s)
                     best, most_m = Landing(object_id, other, point, speed), closing
         return best
-
-    def _stops_suddenly(
-        self, object_id: str, other: str, point_m: Vector, normal: Vector, run: list[tuple[int, float]]
-    ) -> bool:
-        """Whether an object lost more speed towards another than by a hand: from one step to the next, or from the last
-        whole step until it stood still, half a step of this and the partial one after it."""
-        steps: list[tuple[float, float]] = []
-        for (since, begin_s), (until, end_s) in pairwise(run):
-            lasts_s = end_s - begin_s if end_s > begin_s else (until - since) * self._period_s
-            came_m = dot(self._motion.nearing_m(object_id, other, point_m, since, until), normal)
-            steps.append((came_m / lasts_s, lasts_s))
-        fastest, stands_still = 0.0, steps[-1][0] == 0
-        for i, ((speed, lasted_s), (now, lasts_s)) in enumerate(pairwise(steps), 3):
-            between_s = (lasted_s + lasts_s) / 2
-            fastest = max(fastest, speed)
-            is_last_whole = i == len(steps) and stands_still
-            largest = min(fastest / WHOLE, max(speed - now, speed / WHOLE if is_last_whole else 0.0))
-            most = min(BRAKES_M_S2 * between_s, BRAKES_M_S)
-            if largest > most:
-                trembles_m = self._motion.tracks[object_id].trembles_m(normal)
-                if largest > most + min(TREMBLES * trembles_m / between_s, TREMBLES_M_S):
-                    return True
-        return False
 
 
 def _change(one: Vector, other: Vector) -> float:

@@ -10,8 +10,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from scene2hap.scene.geometry import Vector, dot
 from scene2hap.scene.pose import Pose, in_world
 
@@ -29,13 +27,12 @@ UNEVEN = 3
 """Largest ratio of two gaps of slow physics: at 60 Hz, physics at 30 Hz has a step in every second frame, or after one
 and three if these are uneven. A longer gap was a hold."""
 
+SLOW_STEP_S = 0.025
+"""Longest step of slower physics whose first gap is not known [s]: 40 Hz."""
 JUMP, JUMP_M_S2 = 10.0, 30.0
 """A step that is so many times as long as the one before, by more than such an acceleration, or as the one after, is a
 jump: a teleport between the trembling of a tracker. A fall in two or three frames also has steps of very unequal
 length, but by gravity alone; this is three times gravity, since clocks of games are uneven."""
-
-SMOOTH_S, LEAST_SMOOTH = 0.11, 5
-"""Time over which a motion is a parabola but for the noise of a tracker, and fewest steps that show this noise."""
 
 STILL: Vector = (0.0, 0.0, 0.0)
 """The step of an object that does not move [m]."""
@@ -102,6 +99,12 @@ class MotionTrack:
         """Whether the next step is missing since exactly this update."""
         return self.steps[-1][0] + math.ceil(self.gap) == update
 
+    def still_stands(self, update: int, before_s: float, time_s: float) -> bool:
+        """Whether the next step is missing since an earlier update, and slower physics would have made it since exactly
+        this one; before_s, time_s : times of the update before and of this one."""
+        first, since_s = self.steps[-1][0] + math.ceil(self.gap), self.steps[-1][1] + SLOW_STEP_S
+        return update > first and time_s >= since_s and (update == first + 1 or before_s < since_s)
+
     def is_at_rest(self, update: int) -> bool:
         """Whether the motion has ended: no further step can belong to it."""
         return update - self.steps[-1][0] > MOST_GAP
@@ -118,11 +121,11 @@ class MotionTrack:
         x, y, z = x - u, y - v, z - w
         return ((x, y, z), (a + x, b + y, c + z)) if x or y or z else None
 
-    def follow(self, update: int, time_s: float, pose: Pose, step_m: Vector, middle_m: Vector) -> None:
+    def follow(self, update: int, before_s: float, time_s: float, pose: Pose, step_m: Vector, middle_m: Vector) -> None:
         """Add a step of `step_to`."""
         last, last_s, _ = self.steps[-1]
         waited = update - last
-        if waited > 1 and time_s - last_s > LONGEST_GAP_S:
+        if waited > 1 and before_s - last_s > LONGEST_GAP_S:
             self.turn(last)
             self.gap, self.goes_on = 1.0, False
         else:
@@ -133,7 +136,7 @@ class MotionTrack:
                 gap = min(max(gap, waited), UNEVEN * waited)
             self.gap = gap if gap > 1.0 else 1.0
             here = x * x + y * y + z * z
-            jumps = here > JUMP**2 * before and here > (JUMP_M_S2 * (time_s - last_s) ** 2) ** 2 > 0
+            jumps = here > JUMP**2 * before and self._jumps(here, before, time_s - last_s)
             jumped = self.n_steps == 1 and JUMP * onward < before
             if onward <= 0 or jumps or jumped:
                 stopped_m = self.stopped_m
@@ -146,6 +149,12 @@ class MotionTrack:
         if len(self.steps) > 4 * MOST_STEPS:
             del self.steps[: -2 * MOST_STEPS]
 
+    def _jumps(self, here: float, before: float, lasts_s: float) -> bool:
+        """Whether a step is a jump, by its square, that of the step before [m2] and its duration."""
+        lasted_s = self.steps[-1][1] - self.steps[-2][1] if len(self.steps) > 1 else 0.0
+        longer = max(1.0, lasts_s / lasted_s) if lasted_s > 0 else 1.0
+        return here > (JUMP * longer) ** 2 * before and here > (JUMP_M_S2 * lasts_s**2) ** 2 > 0
+
     def run(self, n_without: int = 0, window_s: float = WINDOW_S, most: int = MOST_STEPS) -> list[tuple[int, float]]:
         """Return the numbers and times [s] of the latest steps in one direction, at least two, without the last few."""
         end = len(self.steps) - n_without
@@ -153,23 +162,6 @@ class MotionTrack:
         end_s = latest[-1][1]
         kept = [(update, time_s) for update, time_s in latest if update >= self.since and end_s - time_s <= window_s]
         return kept if len(kept) > 1 else latest[-2:]
-
-    def trembles_m(self, normal: Vector) -> float:
-        """Return the standard deviation of its place across a normal from a parabola [m], over the steps before the
-        last one; 0 with too few of them, or a clock that stands still.
-
-        Neither gravity nor an impact moves it across the normal, so this is the noise of a tracker.
-        """
-        latest = self.steps[-1 - MOST_STEPS : -1]
-        since_s = latest[-1][1] - SMOOTH_S if latest else 0.0
-        smooth = [(time_s, in_world(self.own_m, pose)) for _, time_s, pose in latest if time_s > since_s]
-        if len(smooth) < LEAST_SMOOTH or smooth[0][0] == smooth[-1][0]:
-            return 0.0
-        times, places = (np.array(column) for column in zip(*smooth, strict=True))
-        across = places - np.outer(places @ normal, normal)
-        powers = np.vander(times - times[0], 3)
-        left = across - powers @ np.linalg.lstsq(powers, across, rcond=None)[0]
-        return float(math.sqrt((left**2).sum() / (2 * (len(smooth) - 3))))
 
     def between(self, since: int, until: int) -> list[tuple[int, Pose]]:
         """Return update and pose of the steps from one to another, both included."""
