@@ -27,9 +27,6 @@ SKIN_M = 0.06
 # to look at them).
 _MEMORY_M = (SKIN_M, 0.3)
 
-# From this many bodies on, one sort is cheaper than one query for each body.
-_MANY = 16
-
 
 class BroadPhase:
     """The fat boxes of all bodies, and `neighbours`: the ids of each body's neighbours, by id.
@@ -119,16 +116,11 @@ class BroadPhase:
 
     def _found_neighbours(self, ids: Sequence[str]) -> dict[str, set[str]]:
         """Return the ids of the bodies whose fat boxes overlap those of some bodies, touching included."""
-        columns, found = [self._columns[x] for x in ids], {x: set[str]() for x in ids}
-        if len(ids) < _MANY:
-            low, high = self._fat_boxes
-            for x, k in zip(ids, columns, strict=True):
-                others = self._fat_boxes.meeting(Boxes(low[:, k : k + 1], high[:, k : k + 1]))
-                found[x].update([self._ids[k] for k in others.tolist()])
-        else:
-            for i, j in box_pairs(self._fat_boxes.some(np.array(columns)), self._fat_boxes):
-                for x, y in zip(i.tolist(), j.tolist(), strict=True):
-                    found[ids[x]].add(self._ids[y])
+        found = {x: set[str]() for x in ids}
+        columns = np.array([self._columns[x] for x in ids], dtype=np.intp)
+        for i, j in box_pairs(self._fat_boxes.some(columns), self._fat_boxes):
+            for x, y in zip(i.tolist(), j.tolist(), strict=True):
+                found[ids[x]].add(self._ids[y])
         for x in ids:
             found[x].discard(x)
         return found

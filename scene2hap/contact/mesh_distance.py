@@ -6,7 +6,7 @@ its surface, does not touch it: a chair in a room does not touch the room's wall
 The kernels work in the frame of one mesh, the host, so that a rigid motion of both changes only the last bits. They
 compare pairs of triangles whose boxes are within reach. The order has no effect: results are minima over all pairs,
 with ties broken by coordinates or by the triangles' columns. The compiled kernels find the pairs by descending two
-`TriangleTree`s at once, the plain ones by sorting boxes.
+`TriangleTree`s at once, the plain ones by comparing boxes.
 
 Farthest-point sampling (`spread`) chooses a few of many contact points, beginning with the one farthest from the lowest
 corner of the guest's box.

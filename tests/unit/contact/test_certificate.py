@@ -5,9 +5,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 
-from contact_scenes import box, boxes, floor, on_floor, scene
+from contact_scenes import box, boxes, floor, on_floor, quads, scene, thing
 from scene2hap.contact import certificate_issuer, finder
 from scene2hap.contact.body import Body
 from scene2hap.contact.certificate import Extent, separated
@@ -15,6 +16,7 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.rule import TOUCH_M
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.shapes import TriMesh
 
 TABLE = on_floor("table", (1.0, 0.7, 1.0), 0, 0)
 CUP = box("cup", (0.08, 0.1, 0.08), (0.2, 0.75, 0.1))
@@ -274,6 +276,52 @@ def test_a_step_in_a_rotated_shelf_needs_no_narrow_phase(angle: float, flip: Pos
         graph.update({"cup": Pose((x, height_m, z), yaw(angle + 0.05 * step))})
         assert graph.neighbours("cup") == ("shelf",)
         assert is_as_built(graph, shelf, cup)
+    assert not looked_at(graph)
+
+
+def test_a_step_on_a_worktop_over_a_cupboard_needs_no_narrow_phase(looked_at: Looked) -> None:
+    """The toaster may hover by more than the worktop is thick, but the worktop is between it and the cupboard."""
+    cupboard, worktop = on_floor("cupboard", (0.6, 0.86, 0.6), 0, 0), box("worktop", (2.4, 0.04, 0.6), (0.0, 0.88, 0.0))
+    objects = [floor(), cupboard, worktop, box("toaster", (0.35, 0.2, 0.2), (0.0, 1.0, 0.0))]
+    graph = ContactGraph(scene(*objects))
+    looked_at(graph)
+    for step in range(40):
+        graph.update({"toaster": Pose((0.03 * math.sin(0.1 * step), 1.0, 0.0), yaw(0.02 * step))})
+        assert is_as_built(graph, *objects)
+    assert not looked_at(graph)
+
+
+def test_a_step_on_the_floor_of_a_room_without_thickness_needs_no_narrow_phase(looked_at: Looked) -> None:
+    """The floor is the lowest part of the room, so neither bottom is higher: the crate must stay inside the room."""
+    low, high = ([(x, y, z) for x, z in ((-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0))] for y in (0.0, 2.5))
+    walls = [[low[k - 1], low[k], high[k], high[k - 1]] for k in range(4)]
+    room = thing("room", quads(low, *walls), Pose())
+    objects = [room, box("crate", (0.3, 0.3, 0.3), (0.5, 0.15, 0.0))]
+    graph = ContactGraph(scene(*objects))
+    looked_at(graph)
+    for step in range(40):
+        graph.update({"crate": Pose((0.5 + 0.03 * step, 0.15, 0.02 * step), yaw(0.02 * step))})
+        assert graph.neighbours("crate") == ("room",)
+        assert is_as_built(graph, *objects)
+    assert not looked_at(graph)
+
+
+def test_round_bodies_turn_beside_each_other_without_a_narrow_phase(looked_at: Looked) -> None:
+    """Two cans 1 cm apart: their circles stay apart at any angle, their boxes do not."""
+    ring = [(0.05 * math.cos(0.1 * math.pi * k), 0.05 * math.sin(0.1 * math.pi * k)) for k in range(20)]
+    corners = [(0.0, 0.0, 0.0), (0.0, 0.1, 0.0), *((u, h, v) for h in (0.0, 0.1) for u, v in ring)]
+    faces = [(e, 2 + 20 * e + k, 2 + 20 * e + (k + 1) % 20) for e in (0, 1) for k in range(20)]
+    faces += [(2 + k, 2 + (k + 1) % 20, 22 + k) for k in range(20)]
+    faces += [(2 + (k + 1) % 20, 22 + (k + 1) % 20, 22 + k) for k in range(20)]
+    can = replace(CUP, id="can", geometry=TriMesh(np.array(corners), np.array(faces)), pose=Pose((0.0, 0.7, 0.0)))
+    objects = [floor(), TABLE, can, replace(can, id="other", pose=Pose((0.11, 0.7, 0.0)))]
+    graph = ContactGraph(scene(*objects))
+    for step in range(40):
+        turn = yaw(0.05 * step)
+        graph.update({"can": Pose((0.0, 0.7, 0.0), turn), "other": Pose((0.11, 0.7, 0.0), turn)})
+        assert is_as_built(graph, *objects)
+        if step == 0:
+            looked_at(graph)
     assert not looked_at(graph)
 
 
