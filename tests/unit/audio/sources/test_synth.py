@@ -92,6 +92,13 @@ def test_is_steady_of_a_patch_agrees_with_its_dynamic_range(patch: Patch) -> Non
     assert (dynamic_range_db(played(patch), SAMPLE_RATE_HZ) <= 5.0) == patch.is_steady
 
 
+@every_patch
+def test_every_patch_is_long_enough_to_be_chosen(patch: Patch) -> None:
+    """In an earlier version a telephone rang once in a clip, and no scene with a telephone could be baked."""
+    clip = AudioClip(played(patch).astype(np.float32), SAMPLE_RATE_HZ)
+    assert select_clip([clip]).duration_s > 2.5
+
+
 # the source
 
 
