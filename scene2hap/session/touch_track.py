@@ -187,6 +187,8 @@ def _sentence(problem: checks.Problem) -> str:
     """Return place, reason and value of a problem, and that times are in seconds if one is out of bounds."""
     field = str(problem.location[-1]) if problem.location else ""
     wanted = "lift must be true" if field == "lift" else _WANTED.get(problem.kind, "")
+    if problem.kind == "union_tag_not_found" and isinstance(problem.value, dict) and "hand" in problem.value:
+        wanted = "a step with a hand also has touch, the id of an object, or lift, which is true"
     is_whole = problem.kind == "value_error" or isinstance(problem.value, dict | list | tuple)
     got = "" if is_whole else f", got {checks.shown(problem.value)}"
     hint = " Times are in seconds." if field.endswith("_s") and problem.kind.startswith(("less_", "greater_")) else ""

@@ -153,7 +153,11 @@ def test_file_that_is_not_a_track_is_refused(tmp_path: Path, name: str, text: st
         ("time_s;source;on\n0,5;fan;WAHR\n1;;\n", "step 1, on: it must be true or false, got 'WAHR'"),
         ("time_s,hand,lift\n0.5,left,VRAI\n1,,\n", "step 1: lift must be true, got 'VRAI'"),
         ("time_s,hand,touch\n0.5 s,left,cup\n1,,\n", "time_s: it must be a number, as 0.5, got '0.5 s'"),
-        ("time_s,hand,touch\n0.5,left,\n1,,\n", "step 1: a step has one of the fields touch, lift, move, source"),
+        (
+            "time_s,hand,touch\n0.5,left,\n1,,\n",
+            "step 1: a step with a hand also has touch, the id of an object, or lift, which is true.",
+        ),
+        ("time_s,glide_s\n0.5,1\n1,\n", "step 1: a step has one of the fields touch, lift, move, source."),
         ("time_s,hand,touch,x\n0.5,left,cup,3\n1,,,\n", "step 1, x: there is no such field in this step, got '3'"),
         ("time_s,hand,touch\n0.5,left,cup,0.3\n1,,\n", "line 2 has 4 cells for 3 columns"),
         ("time_s,hand,touch,touch\n0.5,left,cup,pan\n1,,,\n", "two columns are named 'touch'"),
