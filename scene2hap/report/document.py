@@ -228,16 +228,22 @@ def _editable(bundle: HapticBundle, item: SceneObject, haptics: ObjectHaptics) -
 
 def _state(bundle: HapticBundle, object_id: str, state: SourceState, loops: LoopPairs) -> dict[str, Any]:
     loop = bundle.loops.get(object_id, {}).get(state.name)
-    felt = None if loop is None or loop.felt is None else loop.felt
+    felt = None
+    if loop is not None and loop.felt is not None:
+        of = loop.felt
+        felt = {
+            "level_db": of.level_db,
+            "asked_level_db": of.asked_level_db,
+            "own_hz": of.own_hz if of.is_moved else loop.frequency_raw_hz,
+            "target_hz": loop.frequency_tactile_hz,
+        }
     return {
         "name": state.name,
         "intensity": state.intensity,
         "sentence": state.sentence,
         "keywords": state.keywords,
         "needs_contact": state.needs_contact,
-        "felt": None
-        if felt is None
-        else {name: getattr(felt, name) for name in ("level_db", "asked_level_db", "own_hz", "target_hz")},
+        "felt": felt,
         "credit": "" if loop is None else _credit(loop),
         "choices": bundle.choices.get(object_id, {}).get(state.name, ""),
         "loop": None if loop is None else loops.number(loop),

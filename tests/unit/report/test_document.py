@@ -112,6 +112,21 @@ def test_silent_and_single_scenes_have_a_page_too(mug: HapticBundle) -> None:
     assert found["objects"][0]["states"] == []
 
 
+def test_every_view_shows_the_same_frequency_of_a_melody(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """In an earlier version the report showed the mean of a radio's notes, 83 Hz, at which nothing vibrates."""
+    bundle = bake(SceneSnapshot.build([SceneObject("radio", geometry=Box((0.3, 0.2, 0.12)))]))
+    loop = bundle.loops["radio"]["playing"].tactile
+    power = np.abs(np.fft.rfft(loop.samples)) ** 2
+    hz = np.fft.rfftfreq(len(loop.samples), 1 / loop.sample_rate_hz)
+    (radio,) = report_document(bundle)["objects"]
+    shown_hz = radio["states"][0]["felt"]["target_hz"]
+    near = np.abs(hz - shown_hz) < 2.0
+    assert power[near].max() > 0.1 * power.max()
+    bundle.save(tmp_path / "b")
+    assert main(["report", str(tmp_path / "b")]) == 0
+    assert f" at {shown_hz:.0f} Hz" in capsys.readouterr().out
+
+
 def test_a_report_is_a_file_of_json(mug: HapticBundle, tmp_path: Path) -> None:
     path = write_report(mug, tmp_path / "mug.json", most_points=200)
     assert json.loads(path.read_text())["format"] == "scene2hap/report"
