@@ -61,12 +61,13 @@ class PathStep:
 class FeltSource:
     """A source that arrives at a hand.
 
-    Parameters: state, on : its state, and the touched object; gain_db : its gain there, in its strongest band; level_db
-    : the volume of source and user; band : the strongest band; steps : from the source to the touched object, empty if
-    the law has no path (over an object of unknown material, say) and for the physical models; carriers : in the
-    physical models, the contacts through which it enters the touched object, the strongest first; over_threshold_db :
-    its level over the threshold of touch at this hand, None if the loop has no level; running, running_db : whether the
-    source starts or stops at this moment, and its level re steady running, which `over_threshold_db` includes.
+    Parameters: state, on : its state, and the touched object; gain_db : its gain there, in the band in which it is felt
+    most; level_db : the volume of source and user; band : that band; steps : from the source to the touched object,
+    empty if the law has no path (over an object of unknown material, say) and for the physical models; carriers : in
+    the physical models, the contacts through which it enters the touched object, the strongest first; over_threshold_db
+    : its level over the threshold of touch at this hand, over all bands, None if the loop has no level; running,
+    running_db : whether the source starts or stops at this moment, and its level re steady running, which
+    `over_threshold_db` includes.
     """
 
     source_id: str
@@ -168,7 +169,8 @@ class Explainer:
     """Explains the gains of one moment.
 
     Parameters: field : the field in use, which `gains` evaluates; levels : of each source at the hand, by band
-    (n_bands,) [-].
+    (n_bands,) [-]; peaks : of each source in each band, in thresholds of touch (n_sources, n_bands). A gain in a band
+    in which the source has no vibration is not felt, however high.
     The costs of the paths are the law's own, so its field gives the gains along a path without another search.
     """
 
@@ -180,8 +182,10 @@ class Explainer:
         field: object,
         gains: TouchGains,
         levels: Mapping[str, NDArray[np.float64]],
+        peaks: NDArray[np.float32],
     ) -> None:
         self._state, self._sources, self._model, self._gains, self._levels = state, sources, model, gains, levels
+        self._peaks = peaks.astype(np.float64)
         self._column = {source_id: column for column, source_id in enumerate(sources.ids)}
         self._carrying = field if isinstance(field, CarryingField) else None
         self._law = field if isinstance(field, PathCostField) and isinstance(model, ExponentialPlate) else None
@@ -201,14 +205,14 @@ class Explainer:
         felt = []
         if touches and hand in frame.hands:
             gains = zip(frame.sources, frame.gains[frame.hands.index(hand)], strict=True)
-            bands = {x: int(given.argmax()) for x, given in gains if given.any() and x in self._column}
+            bands = {x: self._most_felt(x, given) for x, given in gains if given.any() and x in self._column}
             # No path is searched to the other sources, which are most sources of a large scene.
             limits = [math.inf if source_id in bands else NOWHERE for source_id in self._column]
             at_touches = self._gains.of([[touch] for touch in touches], limits)
             for source_id, band in bands.items():
-                each = at_touches[:, self._column[source_id], band]
-                loudest = int(each.argmax())
-                felt.append(self._felt(source_id, band, touches[loudest], float(each[loudest])))
+                each = at_touches[:, self._column[source_id]]
+                loudest = int(each[:, band].argmax())
+                felt.append(self._felt(source_id, band, touches[loudest], each[loudest]))
         felt.sort(key=lambda item: -(item.gain_db + item.level_db))
         on = tuple(touch.object_id for touch in touches)
         reasons: list[str] = []
@@ -282,10 +286,21 @@ class Explainer:
             return f"without contact with {source.needs[source.state]!r}, switched on", "move it there"
         return None
 
-    def _felt(self, source_id: str, band: int, touch: Touch, gain: float) -> FeltSource:
-        """Return the report of a source whose gain is highest at a touch."""
+    def _most_felt(self, source_id: str, gains: NDArray[np.float32]) -> int:
+        """Return the band (of n_bands) in which a source is felt most at these gains."""
+        felt = gains * self._peaks[self._column[source_id]]
+        return int((felt if felt.any() else gains).argmax())
+
+    def _arriving(self, source_id: str, gains: NDArray[np.float64]) -> float:
+        """Return the amplitude over all bands re that on the source itself [-]."""
+        peaks = self._peaks[self._column[source_id]]
+        whole = float(np.linalg.norm(peaks))
+        return float(np.linalg.norm(peaks * gains * self._levels[source_id])) / whole if whole > 0.0 else 0.0
+
+    def _felt(self, source_id: str, band: int, touch: Touch, gains: NDArray[np.float64]) -> FeltSource:
+        """Return the report of a source at the touch where its gains (n_bands,) are highest."""
         on = touch.object_id
-        gain_db, level_db = decibels(gain), decibels(float(self._levels[source_id][band]))
+        gain_db, level_db = decibels(float(gains[band])), decibels(float(self._levels[source_id][band]))
         steps: tuple[PathStep, ...] = ()
         carriers: tuple[Carrier, ...] = ()
         if self._carrying is not None and on != source_id:
@@ -295,7 +310,7 @@ class Explainer:
             steps = () if legs is None else _steps(source_id, legs, self._gains_along(legs, source_id, band))
         source = self._sources[source_id]
         felt = source.rows[source.state].loop.felt
-        over_db = None if felt is None else felt.level_db + gain_db + level_db
+        over_db = None if felt is None else felt.level_db + decibels(self._arriving(source_id, gains))
         return FeltSource(source_id, source.state, on, gain_db, level_db, band, steps, carriers, over_db)
 
     def _gains_along(self, legs: Sequence[Leg], source_id: str, band: int) -> list[float]:

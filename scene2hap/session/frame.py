@@ -85,7 +85,7 @@ class HapticFrame:
 
     @clear_call
     def gain(self, hand: str, source_id: str) -> float:
-        """Return the gain of a source at a hand, in its loudest band [-].
+        """Return the gain of a source at a hand, the highest of its bands [-].
 
         Raises: SessionError: no such hand; UnknownObject: no such source.
         """

@@ -160,7 +160,9 @@ class HandFrames:
         touches = self.felt.get(hand, [])
         levels = self._levels_at(hand)
         gains = self._touch_gains(self.keeper.for_points(self._sources.ids, self._reach, len(touches)), Counts())
-        explainer = Explainer(self._state, self._sources, self._config.propagation, self.keeper.field, gains, levels)
+        peaks = self._known_audibility().peaks[:, 0]
+        model, field = self._config.propagation, self.keeper.field
+        explainer = Explainer(self._state, self._sources, model, field, gains, levels, peaks)
         keeper = self.keeper
         return explainer.explain(
             hand, touches, self._frame, is_current=keeper.is_current, failure=keeper.failure, is_paused=is_paused
