@@ -218,6 +218,8 @@ class Explainer:
         reasons: list[str] = []
         if touches and all(item.is_too_weak for item in felt):
             reasons.extend(self._reasons(set(on), is_paused=is_paused))
+            if not (felt or reasons or failure) and is_current:
+                reasons.extend(self._why_faint(set(on)))
         elif touches:
             # A hand on a cold pan expects the pan, also if it feels another source through it.
             felt_ids = {item.source_id for item in felt}
@@ -240,11 +242,7 @@ class Explainer:
                 "name=...), or what it is made of by override(id, material=...), then rebake(bundle); or give add its "
                 "haptics."
             )
-        ids = self._sources.ids
-        reach = self._state.reach(ids)
-        columns = frozenset[int]().union(*(reach.sources(object_id) for object_id in on))
-        needs_path = not follows_poses(self._model)
-        near = [x for column, x in enumerate(ids) if column in columns or x in on or not needs_path]
+        ids, near = self._sources.ids, self._connected(on)
         if not near:
             yield "No source touches it, directly or over other objects."
             inside = [source_id for source_id in ids if any(self._is_inside(source_id, x) for x in on)]
@@ -255,6 +253,20 @@ class Explainer:
                     "that touches both."
                 )
         yield from self._why_silent_each("Connected", near)
+
+    def _why_faint(self, on: set[str]) -> Iterator[str]:
+        """Yield a sentence about sources that are connected to these objects and vibrate, of which nothing arrives."""
+        if near := self._connected(on):
+            named = first_of([*map(repr, near)], MOST_NAMED)
+            yield f"Connected, but below -140 dB here: {named}; touch nearer to it, or choose another model."
+
+    def _connected(self, on: set[str]) -> list[str]:
+        """Return the sources that are connected to any of these objects."""
+        ids = self._sources.ids
+        reach = self._state.reach(ids)
+        columns = frozenset[int]().union(*(reach.sources(object_id) for object_id in on))
+        needs_path = not follows_poses(self._model)
+        return [x for column, x in enumerate(ids) if column in columns or x in on or not needs_path]
 
     def _why_silent_each(self, how: str, source_ids: Sequence[str]) -> Iterator[str]:
         """Yield a sentence for each cause for which some of these sources are silent."""

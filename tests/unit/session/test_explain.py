@@ -290,6 +290,24 @@ def test_explanation_says_why_nothing_is_felt() -> None:
     assert reasons() in s.explain("left").text
 
 
+def test_explanation_names_sources_that_are_connected_but_too_far() -> None:
+    """In an earlier version a hand at the far end of a floor felt nothing, and no reason was given."""
+    plain = scene(box("floor", (40.0, 0.02, 4.0), (0.0, 0.0, 0.0)), box("phone", (0.1, 0.01, 0.1), (-19.0, 0.015, 0.0)))
+    snapshot = dataclasses.replace(plain, contacts=(Contact("phone", "floor", (-19.0, 0.01, 0.0)),))
+    inferred = {"floor": haptics("oak", (40.0, 4.0, 0.02)), "phone": haptics("glass", (0.1, 0.1, 0.01), "ringing")}
+    bundle = HapticBundle(snapshot, "hall", inferred, {"phone": {"ringing": tone_loop(200)}})
+    s = HapticSession(snapshot, bundle, {"sample_rate_hz": RATE})
+    assert 38.0 * fall_db("oak", 0.02, 200, 1.0) < -140.0
+    s.update(touches=[Touch("left", "floor", (19.0, 0.01, 0.0))])
+    assert s.explain("left").felt == ()
+    (why,) = s.explain("left").reasons
+    assert "below -140 dB here: 'phone'; touch nearer" in why
+    s.set_source("phone", on=False)
+    s.update(touches=[Touch("left", "floor", (19.0, 0.01, 0.0))])
+    (why,) = s.explain("left").reasons
+    assert "off: 'phone'" in why
+
+
 def test_explanation_says_that_the_sink_was_not_started() -> None:
     s = HapticSession(*shelf_on_table(), {"sample_rate_hz": RATE}, sink="memory")
     s.update(touches=[ON_TABLE])
