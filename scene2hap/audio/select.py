@@ -23,6 +23,7 @@ from scene2hap.audio.recorded_runs import RecordedRuns, recorded_runs
 from scene2hap.audio.run_curve import RunCurve
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ
 from scene2hap.common import checks
+from scene2hap.common.counted import counted
 from scene2hap.common.printable import aligned
 from scene2hap.errors import AudioError
 
@@ -200,6 +201,7 @@ def _nothing_long_enough(clips: Sequence[AudioClip], durations: Sequence[float])
         return "there is no candidate to choose from. Add a sound to the library or enable another audio source."
     longest = int(np.argmax(durations))
     return (
-        f"none of {len(clips)} candidates is long enough: the longest, {clips[longest].credit.title!r}, lasts "
-        f"{durations[longest]:.2f} s without its silent ends; it must be above {MIN_DURATION_S:g} s. Use longer sounds."
+        f"none of {counted(len(clips), 'candidate')} is long enough: the longest, {clips[longest].credit.title!r}, "
+        f"lasts {durations[longest]:.2f} s without its silent ends; it must be above {MIN_DURATION_S:g} s. "
+        "Use longer sounds."
     )

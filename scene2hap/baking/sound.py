@@ -277,7 +277,14 @@ class _Chooser:
 
     def _choose(self, object_id: str, description: VibrationDescription) -> Choice:
         config = self._config
-        return explain_choice(gather(object_id, description, config.audio, enough=config.enough_candidates))
+        candidates = gather(object_id, description, config.audio, enough=config.enough_candidates)
+        try:
+            return explain_choice(candidates)
+        except AudioError as cause:
+            raise AudioError(
+                f"no sound for {object_id!r} ({description.keywords!r}): {cause} Or add the synthesizer (kind 'synth') "
+                "as the last source."
+            ) from cause
 
     def _description(self, haptics: ObjectHaptics, state: SourceState) -> VibrationDescription:
         return VibrationDescription(

@@ -2,11 +2,14 @@
 
 import asyncio
 from dataclasses import dataclass
+from pathlib import Path
 from threading import Barrier, BrokenBarrierError
 
 import numpy as np
 import pytest
+import soundfile
 
+from scene2hap import Box, SceneObject, SceneSnapshot, bake
 from scene2hap.audio.clip import AudioClip, Credit, Samples
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.baking.config import BakeConfig
@@ -116,3 +119,11 @@ def test_plugins_are_searched_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(fingerprint, "entry_points", counted)
     loops(5, Through())
     assert asked == [CONVERTERS.name]
+
+
+def test_an_object_whose_sounds_are_all_too_short_is_named(tmp_path: Path) -> None:
+    """In an earlier version the message named the file alone, so that nobody knew which object wanted it."""
+    soundfile.write(tmp_path / "fan.wav", 0.3 * np.sin(2 * np.pi * 120 * np.arange(48_000) / 48_000), 48_000)
+    scene = SceneSnapshot.build([SceneObject("desk fan 7", geometry=Box((0.3, 0.4, 0.2)))])
+    with pytest.raises(AudioError, match=r"'desk fan 7'.*none of 1 candidate is long enough.*lasts 1\.00 s.*'synth'"):
+        bake(scene, {"audio": {"kind": "library", "folder": str(tmp_path)}})
