@@ -230,8 +230,10 @@ class Sources:
         """
         source = self[source_id]
         if state is not None and not (isinstance(state, str) and state in source.rows):
-            wanted = checks.represented(state)
-            raise SessionError(f"{source_id!r} has no state {wanted}; it has {', '.join(map(repr, source.rows))}.")
+            raise SessionError(
+                f"{source_id!r} has no state {checks.represented(state)}; it has {', '.join(map(repr, source.rows))}. "
+                "on=True and on=False switch it."
+            )
         is_on = source.is_on if on is None else checks.flag("on", on, error=SessionError)
         source.level.set(gain_db, mute)
         source.is_on = is_on

@@ -90,3 +90,9 @@ def test_a_call_that_fails_changes_nothing(wrong: dict[str, object]) -> None:
     with pytest.raises(SessionError):
         session.set_user(gain_db=-6.0, mute="yes")  # type: ignore[arg-type]  # wrong on purpose
     assert session.update(touches=ON_PAN).gain("left", "pan") == 1.0
+
+
+def test_an_unknown_state_is_refused_with_the_switch() -> None:
+    """In an earlier version the message for "off" named the states alone, none of which switches a source off."""
+    with pytest.raises(SessionError, match="no state 'off'; it has .* on=True and on=False switch it"):
+        humming_hob().set_source("hob", state="off")
