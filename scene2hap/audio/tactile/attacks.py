@@ -80,9 +80,9 @@ class EmphasizedAttacks(Stage):
         return out
 
     def _attacks(self, n: int) -> list[int]:
-        """Return those of the next n steps at which an attack begins."""
-        before = sliding_window_view(self._sound, BEFORE)[:n].copy().mean(axis=1)  # a copy: sums in one order
-        rising = np.flatnonzero(self._sound[BEFORE : BEFORE + n] > RISE * before + QUIETEST)
+        """Return those of the n steps after the next one at which an attack begins: the gain rises in the step before."""
+        before = sliding_window_view(self._sound, BEFORE)[1 : n + 1].copy().mean(axis=1)  # a copy: sums in one order
+        rising = 1 + np.flatnonzero(self._sound[BEFORE + 1 : BEFORE + 1 + n] > RISE * before + QUIETEST)
         found: list[int] = []
         last = -self._since
         for k in rising.tolist():
