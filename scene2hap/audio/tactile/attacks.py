@@ -80,7 +80,7 @@ class EmphasizedAttacks(Stage):
         return out
 
     def _attacks(self, n: int) -> list[int]:
-        """Return those of the n steps after the next one at which an attack begins: the gain rises in the step before."""
+        """Return those of the n steps after the next one at which an attack begins; the gain rises one step earlier."""
         before = sliding_window_view(self._sound, BEFORE)[1 : n + 1].copy().mean(axis=1)  # a copy: sums in one order
         rising = 1 + np.flatnonzero(self._sound[BEFORE + 1 : BEFORE + 1 + n] > RISE * before + QUIETEST)
         found: list[int] = []
