@@ -28,7 +28,7 @@ UNEVEN = 3
 and three if these are uneven. A longer gap was a hold."""
 
 SLOW_STEP_S = 0.025
-"""Longest step of slower physics whose first gap is not known [s]: 40 Hz; assumed."""
+"""Longest step of slower physics whose rate is not known [s]: 40 Hz; assumed."""
 JUMP, JUMP_M_S2 = 10.0, 30.0
 """A step that is so many times as long as the one before, by more than such an acceleration, or as the one after, is a
 jump: a teleport between the trembling of a tracker. A fall in two or three frames also has steps of very unequal

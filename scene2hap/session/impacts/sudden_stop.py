@@ -16,7 +16,7 @@ from statistics import median
 from scene2hap.scene.geometry import Vector, dot
 from scene2hap.scene.pose import in_world
 from scene2hap.session.impacts.closing_speed import GRAVITY_M_S2, parabola
-from scene2hap.session.impacts.motion_track import MOST_STEPS, MotionTrack
+from scene2hap.session.impacts.motion_track import MOST_STEPS, SLOW_STEP_S, MotionTrack
 from scene2hap.session.impacts.relative_motion import RelativeMotion
 
 BRAKES_M_S2, BRAKES_M_S, STALL = 10.0, 0.2, 2.5
@@ -81,8 +81,9 @@ class SuddenStop:
             (end_s - begin_s if end_s > begin_s else (until - since) * self._period_s, since, until)
             for (since, begin_s), (until, end_s) in pairwise(run)
         ]
-        # A step of slower physics may be shown in a frame that is shorter.
-        least_s = median(x for x, _, _ in travels[:-1]) if self._motion.tracks[object_id].gap > 1.0 else 0.0
+        # A step of slower physics may be shown in a frame that is shorter; a longer step is a stall.
+        is_slow = self._motion.tracks[object_id].gap > 1.0
+        least_s = min(median(x for x, _, _ in travels[:-1]), SLOW_STEP_S) if is_slow else 0.0
         steps: list[tuple[float, float]] = []
         for duration_s, since, until in travels:
             lasts_s = max(duration_s, least_s)
