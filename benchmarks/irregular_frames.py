@@ -9,7 +9,8 @@ A hand puts a cup down or shakes it over a table by 1 to 6 m/s2, or the cup fall
 - half rate: the headset halves its rate of frames and doubles it again;
 - blocks: the clock is that of a sound card with blocks of 512 samples;
 - uneven calls: the game calls `update` up to a fifth of a frame early or late;
-- physics: 50 Hz, shown without interpolation.
+- physics: 50 Hz, shown without interpolation;
+- physics and stalls: both.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from scene2hap.session.impacts.landings import Landing, Landings
 
 G, TOP_M, RESTS_M, RATES_HZ = 9.81, 0.7, 0.76, (60, 72, 90, 120)
 FALLS_M = (0.02, 0.03, 0.05, 0.1, 0.3, 1.0)
-KINDS = ("even", "late", "stalls", "half rate", "blocks", "uneven calls", "physics")
+KINDS = ("even", "late", "stalls", "half rate", "blocks", "uneven calls", "physics", "physics and stalls")
 
 Height = Callable[[float], float]
 
@@ -37,7 +38,7 @@ def frames(kind: str, hz: int, lasts_s: float, rng: np.random.Generator) -> list
     lengths = np.full(n, 1 / hz)
     if kind == "late":
         lengths *= np.where(rng.random(n) < 0.2, 2, 1)
-    if kind == "stalls":
+    if kind.endswith("stalls"):
         lengths = np.where(rng.random(n) < 2 / hz, rng.uniform(0.05, 0.12, n), lengths)
     if kind == "half rate":
         lengths *= 1 + np.repeat(np.arange(n) % 2, rng.integers(5, 30, n))[:n]
@@ -48,7 +49,7 @@ def frames(kind: str, hz: int, lasts_s: float, rng: np.random.Generator) -> list
         clock = np.floor(clock * 48_000 / 512) * 512 / 48_000
     if kind == "uneven calls":
         clock = clock + rng.uniform(-0.2, 0.2, len(clock)) / hz
-    if kind == "physics":
+    if kind.startswith("physics"):
         shown = np.floor(shown * 50 + rng.random()) / 50
     return list(zip(shown.tolist(), clock.tolist(), strict=True))
 

@@ -61,7 +61,8 @@ def actuator_profile(spec: object) -> ActuatorProfile:
         if str(spec).lower().endswith(".csv"):
             return read_response_csv(spec)
     near = checks.did_you_mean(spec, ACTUATORS)
-    problem = f"actuator is {spec!r}; it must be one of {', '.join(ACTUATORS)}, or a CSV file of Hz and dB. {near}"
+    given = checks.represented(spec)
+    problem = f"actuator is {given}; it must be one of {', '.join(ACTUATORS)}, or a CSV file of Hz and dB. {near}"
     raise ConfigError(problem.rstrip())
 
 

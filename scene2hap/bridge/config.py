@@ -9,6 +9,7 @@ from typing import Any, Self
 
 from pydantic import Field, field_validator, model_validator
 
+from scene2hap.common import checks
 from scene2hap.common.printable import quoted
 from scene2hap.common.secret import Secret
 from scene2hap.common.settings import Settings
@@ -65,8 +66,8 @@ class BridgeConfig(Settings):
             raise ValueError("token is empty; leave it out, or give a text of your own")
         if not is_loopback(self.host) and self.token is None:
             raise ValueError(
-                f"host is {self.host!r}, which others reach; such a bridge needs a token. Give one with --token, or "
-                "listen on 127.0.0.1"
+                f"host is {checks.represented(self.host)}, which others reach; such a bridge needs a token. Give one "
+                "with --token, or listen on 127.0.0.1"
             )
         return self
 

@@ -32,18 +32,14 @@ _SECRET_PART = re.compile(r"(://)[^/@\s'\"]+(?=@)|(://[^?\s'\"]*\?)[^\s'\"]+|\bs
 
 
 def shown(value: object, name: object = "") -> str:
-    """Format a value for an error message.
-
-    Masked are settings named as in `SECRET_NAME`, credentials and queries of addresses, and keys of OpenAI
-    under any name, since a name may have a typing error.
-    """
+    """Format a value for an error message as `represented`; settings named as in `SECRET_NAME` are masked, too."""
     if isinstance(name, str) and SECRET_NAME.search(name):
         return repr(MASK)
     if isinstance(value, Mapping):
         return _cut("{" + ", ".join(f"{represented(key)}: {shown(item, key)}" for key, item in value.items()) + "}")
     if isinstance(value, list | tuple):
         return _cut("[" + ", ".join(map(shown, value)) + "]")
-    return _SECRET_PART.sub(lambda found: f"{found[1] or found[2] or ''}{MASK}", represented(value))
+    return represented(value)
 
 
 _LONGEST_SHOWN = 200
@@ -55,7 +51,10 @@ def _cut(text: str) -> str:
 
 
 def represented(value: object) -> str:
-    """Format `repr(value)` for an error message: shortened, or only the type if `repr` fails."""
+    """Format `repr(value)` for an error message: shortened, or only the type if `repr` fails.
+
+    Credentials and queries of addresses are masked, and keys of OpenAI, since a key may be given in a wrong place.
+    """
     try:
         text = repr(value)
     except Exception:  # an integer of more than 4300 digits, or any error from a foreign `__repr__`
@@ -64,7 +63,9 @@ def represented(value: object) -> str:
         text = " ".join(text.split())
     if text.startswith("<") and " at 0x" in text:  # the address is useless, and differs in each run
         return described(value)
-    return text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}..."
+    text = text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}..."
+    # Only a short text is searched: the time grows with the square of the addresses in it.
+    return _SECRET_PART.sub(lambda found: f"{found[1] or found[2] or ''}{MASK}", text)
 
 
 def described(value: object) -> str:
@@ -125,11 +126,16 @@ _REASONS = {
     "missing": "it is missing",
     "extra_forbidden": "there is no such field",
     "string_type": "it must be a text",
+    "string_unicode": "it must be a text of Unicode",
+    "string_too_short": "it must have more characters, at least {min_length}",
+    "string_too_long": "it must have fewer characters, at most {max_length}",
+    "path_type": "it must be a path, as a text or a pathlib.Path",
     "bool_type": "it must be true or false",
     "bool_parsing": "it must be true or false",
     "int_type": "it must be a whole number",
     "int_parsing": "it must be a whole number",
     "int_from_float": "it must be a whole number",
+    "int_parsing_size": "it is too large",
     "float_type": "it must be a number",
     "float_parsing": "it must be a number, as 0.5",
     "finite_number": "it must be finite",
@@ -143,10 +149,12 @@ _REASONS = {
     "greater_than_equal": "it must be at least {ge}",
     "less_than": "it must be below {lt}",
     "less_than_equal": "it must be at most {le}",
-    "too_short": "it must have at least {min_length} items",
+    "too_short": "it must have more items, at least {min_length}",
     "too_long": "it must have at most {max_length} items",
 }
-"""What users read instead of pydantic's sentence about a kind of problem, which speaks of Python's types."""
+"""Reasons for pydantic's kinds of problems. Its own sentences speak of Python's types."""
+_MEMBER_OF_UNION = re.compile(r"tuple\[[\w, .]+\]")
+"""A part of a location that names a type, as of prices, which have two or three numbers."""
 
 
 def first_problem(error: ValidationError) -> Problem:
@@ -158,7 +166,8 @@ def first_problem(error: ValidationError) -> Problem:
     else:
         reason = first["msg"].removeprefix("Value error, ").removesuffix(".")
     is_own = isinstance(context.get("error"), Scene2HapError)
-    return Problem(first["loc"], reason, first["input"], first["type"], is_own)
+    location = tuple(part for part in first["loc"] if not _MEMBER_OF_UNION.fullmatch(str(part)))
+    return Problem(location, reason, first["input"], first["type"], is_own)
 
 
 def number(

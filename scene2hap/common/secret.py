@@ -23,7 +23,7 @@ class Secret:
 
     def __init__(self, value: str | None = None, variable: str = "") -> None:
         if not isinstance(value, str | None):
-            raise ConfigError(f"an API key or token is a {type(value).__name__}; it must be a text.")
+            raise ConfigError("an API key or token must be a text.")
         if not isinstance(variable, str):
             raise ConfigError("the name of an environment variable with a key must be a text.")
         self._value = value

@@ -10,7 +10,15 @@ from pathlib import Path
 from types import NoneType
 from typing import Any, ClassVar, Self, get_args
 
-from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    ModelWrapValidatorHandler,
+    ValidationError,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes
@@ -54,6 +62,15 @@ class Settings(BaseModel):
                 f"{name} of a {cls} cannot be set, since settings never change; {cls}.parse(settings, {name}=...) "
                 "makes others."
             ) from cause
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _has_names(cls, value: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Refuse settings inside of others that Python cannot pass by name."""
+        unnamed = [name for name in value if not isinstance(name, str)] if isinstance(value, Mapping) else []
+        if unnamed:
+            raise ConfigError(f"{cls.of_what} setting {checks.represented(unnamed[0])}: a name must be a text.")
+        return handler(value)
 
     @field_validator("*", mode="before")
     @classmethod

@@ -24,12 +24,12 @@ from scene2hap.audio.tactile.stages import Signal, Stage
 from scene2hap.audio.tactile.step_energies import StepEnergies
 
 JND = 10 ** (LEVEL_JND_DB / 10)
-"""Ratio of energies that touch just notices, and the largest lift: dense ticks, of which only those after a pause are
-lifted, keep r = 0.84 with their sound, with lifts of up to 6 dB 0.72."""
+"""Ratio of energies that touch just notices, and the largest lift. Only those of dense ticks that follow a pause are
+lifted, and a larger lift would distort their envelope."""
 CLEAR = 10**1.5
 """Rise that is clear without a lift (15 dB, six just noticeable differences; assumed)."""
 BEFORE, LASTS = round(0.05 / STEP_S), round(0.02 / STEP_S)
-"""Steps before an attack whose mean it exceeds, and steps of the lift: as long as the longest burst."""
+"""Steps before an attack whose mean it exceeds (50 ms; assumed), and steps of the lift (20 ms: the longest burst)."""
 APART = LASTS + 4
 """Least steps from one attack to the next; a lift ends before the next one begins."""
 
@@ -80,9 +80,9 @@ class EmphasizedAttacks(Stage):
         return out
 
     def _attacks(self, n: int) -> list[int]:
-        """Return those of the next n steps at which an attack begins."""
-        before = sliding_window_view(self._sound, BEFORE)[:n].copy().mean(axis=1)  # a copy: sums in one order
-        rising = np.flatnonzero(self._sound[BEFORE : BEFORE + n] > RISE * before + QUIETEST)
+        """Return those of the n steps after the next one at which an attack begins; the gain rises one step earlier."""
+        before = sliding_window_view(self._sound, BEFORE)[1 : n + 1].copy().mean(axis=1)  # a copy: sums in one order
+        rising = 1 + np.flatnonzero(self._sound[BEFORE + 1 : BEFORE + 1 + n] > RISE * before + QUIETEST)
         found: list[int] = []
         last = -self._since
         for k in rising.tolist():

@@ -177,7 +177,7 @@ class Landings:
             stopped += [x for x in changed if tracks[x].is_falling and self._is_sudden(x, steps_m)]
         found = [one for object_id in stopped for one in self._landing(object_id, tracks[object_id], time_s)]
         for _, track, pose, (step_m, middle_m) in moving:
-            track.follow(now, self._before_s, time_s, pose, step_m, middle_m)
+            track.follow(now, time_s, pose, step_m, middle_m)
         for object_id in at_rest:
             del tracks[object_id]
         if not found:

@@ -28,7 +28,7 @@ UNEVEN = 3
 and three if these are uneven. A longer gap was a hold."""
 
 SLOW_STEP_S = 0.025
-"""Longest step of slower physics whose first gap is not known [s]: 40 Hz."""
+"""Longest step of slower physics whose rate is not known [s]: 40 Hz; assumed."""
 JUMP, JUMP_M_S2 = 10.0, 30.0
 """A step that is so many times as long as the one before, by more than such an acceleration, or as the one after, is a
 jump: a teleport between the trembling of a tracker. A fall in two or three frames also has steps of very unequal
@@ -121,11 +121,11 @@ class MotionTrack:
         x, y, z = x - u, y - v, z - w
         return ((x, y, z), (a + x, b + y, c + z)) if x or y or z else None
 
-    def follow(self, update: int, before_s: float, time_s: float, pose: Pose, step_m: Vector, middle_m: Vector) -> None:
+    def follow(self, update: int, time_s: float, pose: Pose, step_m: Vector, middle_m: Vector) -> None:
         """Add a step of `step_to`."""
         last, last_s, _ = self.steps[-1]
         waited = update - last
-        if waited > 1 and before_s - last_s > LONGEST_GAP_S:
+        if waited > 1 and time_s - last_s > LONGEST_GAP_S:
             self.turn(last)
             self.gap, self.goes_on = 1.0, False
         else:

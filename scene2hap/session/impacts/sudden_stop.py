@@ -1,9 +1,9 @@
 """Tell a sudden stop, by something that is in the way, from a hand that brakes.
 
 A hand loses a bounded speed in a given time. The clock of a game is no exact measure of this time: frames are late, and
-physics runs at a rate of its own. So only the last two changes of speed count, where an object stops, and the steps
-before them show the noise: their distance from a parabola. Nothing that a hand stops falls freely until its last step.
-Then this noise does not count.
+physics runs at a rate of its own. So only the last two changes of speed count, where an object stops. The noise of the
+places is their distance from a parabola in the steps before. It does not count for an object that falls freely until
+its last step, since no hand stops such an object.
 """
 
 from __future__ import annotations
@@ -16,13 +16,14 @@ from statistics import median
 from scene2hap.scene.geometry import Vector, dot
 from scene2hap.scene.pose import in_world
 from scene2hap.session.impacts.closing_speed import GRAVITY_M_S2, parabola
-from scene2hap.session.impacts.motion_track import MOST_STEPS, MotionTrack
+from scene2hap.session.impacts.motion_track import MOST_STEPS, SLOW_STEP_S, MotionTrack
 from scene2hap.session.impacts.relative_motion import RelativeMotion
 
 BRAKES_M_S2, BRAKES_M_S, STALL = 10.0, 0.2, 2.5
-"""Largest deceleration by a hand that carries, lowers or shakes an object, and largest loss of speed by a hand from one
-step to the next; assumed. Below 50 Hz the latter is the smaller bound, since a short fall lasts for few frames. In
-a stall of the game, of so many frames or more, it holds for falls alone: a hand may brake throughout."""
+"""Largest deceleration by a hand that carries, lowers or shakes an object [m/s2], and largest loss of speed by a hand
+from one step to the next [m/s]; assumed. Below 50 Hz the latter is the smaller bound, since a short fall lasts for few
+frames. A step of more than `STALL` usual ones is a stall of the game (assumed), in which a hand may brake throughout.
+There the latter bound holds for falls alone."""
 TREMBLES, TREMBLES_M_S = 3.5, 0.25
 """Largest loss of speed by noise, as standard deviations of a place per step, and in m/s. With 3 more false landings
 are found, with 5 no fall from 1 cm is."""
@@ -30,9 +31,9 @@ WHOLE = 1.5
 """Slowest landing, as a multiple of this loss. One that is slower would be found or not by the time in a frame at which
 the objects meet."""
 SMOOTH_S, LEAST_SMOOTH = 0.11, 5
-"""Time over which a motion is a parabola but for noise, and fewest steps that show this noise."""
+"""Time over which a motion is a parabola but for noise [s], and fewest steps that show this noise; assumed."""
 FALLS_M_S2, SURE = GRAVITY_M_S2 / 2, 1.5
-"""Acceleration that tells a fall from a motion by a hand, and by how many standard errors it must differ."""
+"""Least acceleration of a fall [m/s2], and by how many standard errors a measured one must exceed it; assumed."""
 
 
 class SuddenStop:
@@ -80,8 +81,9 @@ class SuddenStop:
             (end_s - begin_s if end_s > begin_s else (until - since) * self._period_s, since, until)
             for (since, begin_s), (until, end_s) in pairwise(run)
         ]
-        # A step of slower physics may be shown in a frame that is shorter.
-        least_s = median(x for x, _, _ in travels[:-1]) if self._motion.tracks[object_id].gap > 1.0 else 0.0
+        # A step of slower physics may be shown in a frame that is shorter; a longer step is a stall.
+        is_slow = self._motion.tracks[object_id].gap > 1.0
+        least_s = min(median(x for x, _, _ in travels[:-1]), SLOW_STEP_S) if is_slow else 0.0
         steps: list[tuple[float, float]] = []
         for duration_s, since, until in travels:
             lasts_s = max(duration_s, least_s)

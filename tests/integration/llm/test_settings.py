@@ -17,7 +17,7 @@ from scene2hap.errors import ConfigError
         (lambda: OpenAIBackend(detail="original"), "detail is 'original'"),
         (lambda: OpenAIBackend(base_url="api.openai.com"), "base_url is 'api.openai.com'"),
         (lambda: OpenAIBackend(timeout_s=0), "timeout_s is 0 s"),
-        (lambda: OpenAIBackend(api_key=b"secret"), "an API key or token is a bytes"),
+        (lambda: OpenAIBackend(api_key=b"secret"), "an API key or token must be a text"),
         (lambda: OpenAIBackend(top_p=0), "top_p is 0"),
         (lambda: OpenAIBackend(max_tokens=0), "max_tokens is 0 tokens"),
         (lambda: OpenAIBackend(max_tokens=9.5), "max_tokens is 9.5; it must be a whole number"),

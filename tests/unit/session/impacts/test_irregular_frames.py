@@ -61,6 +61,12 @@ def physics(hz: int, lasts_s: float, rng: np.random.Generator) -> Shown:
     return [(math.floor(t * 50 + begins) / 50, t) for t, _ in every(hz, lasts_s, rng)]
 
 
+def physics_and_stalls(hz: int, lasts_s: float, rng: np.random.Generator) -> Shown:
+    """Physics at 50 Hz in frames with stalls."""
+    begins = rng.random()
+    return [(math.floor(t * 50 + begins) / 50, t) for t, _ in stalls(hz, lasts_s, rng)]
+
+
 KINDS = [every, late, stalls, half_rate, blocks, uneven_calls, physics]
 Frames = Callable[[int, float, np.random.Generator], Shown]
 
@@ -128,6 +134,16 @@ def test_object_that_a_hand_puts_down_or_shakes_gently_does_not_land(
         if landings_of(height_m, frames((60, 72, 90, 120)[seed % 4], lasts_s, rng)):
             found.append(seed)
     assert found == []
+
+
+def test_object_that_a_hand_puts_down_gently_seldom_lands_where_physics_is_slower_and_frames_stall() -> None:
+    """A step that ends with a stall is as long as the stall; that of the physics is 20 ms."""
+    n_landed = 0
+    for seed in range(100):
+        rng = np.random.default_rng(seed)
+        height_m, lasts_s = put_down(rng)
+        n_landed += bool(landings_of(height_m, physics_and_stalls((60, 72, 90, 120)[seed % 4], lasts_s, rng)))
+    assert n_landed <= 1
 
 
 @pytest.mark.parametrize("height_m", [0.02, 0.03, 0.05, 0.1, 0.3, 1.0])
