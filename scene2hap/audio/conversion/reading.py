@@ -48,7 +48,7 @@ class SoundReader:
             _require_length_of_loop(source, int(file.frames) / self.rate)
         self.n_around: int = round(PRE_ROLL_S * self.rate) if is_loop else 0
         """Frames by which `blocks_to_convert` continues the file on both sides, as its repetitions do."""
-        self.channels = 1 if mono else int(file.channels)
+        self.channels: int = 1 if mono else int(file.channels)
         self.meter: Meter = Meter(self.rate, self.channels, n_frames=int(file.frames), n_columns=n_columns)
         self._source, self._file, self._mono = source, file, mono
         self.gain: float = 1.0
