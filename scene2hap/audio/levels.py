@@ -114,12 +114,16 @@ def felt_spectrum(
     No window is applied, since a loop is periodic. The range is 10 to 1000 Hz.
     """
     x = np.asarray(samples, dtype=np.float64)
-    return _felt(scipy.fft.rfft(x), len(x), sample_rate_hz, actuator)
+    f = np.fft.rfftfreq(len(x), 1.0 / sample_rate_hz).astype(np.float64)
+    inside = (f >= TACTILE_RANGE_HZ[0]) & (f <= min(TACTILE_RANGE_HZ[1], 0.5 * sample_rate_hz))
+    f = f[inside]
+    amplitude = 2.0 * np.abs(scipy.fft.rfft(x)[inside]) / len(x)
+    return f, amplitude**2 * 10 ** (over_threshold_db(f, actuator) / 10)
 
 
 def felt_level_db(samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorProfile | None = None) -> float:
     """Return the sensation level of a loop (n_samples,) [dB]; minus infinity if nothing is felt."""
-    return _level_db(felt_spectrum(samples, sample_rate_hz, actuator)[1])
+    return sum_db(felt_spectrum(samples, sample_rate_hz, actuator)[1])
 
 
 def most_felt_hz(samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorProfile | None = None) -> float:
@@ -131,29 +135,13 @@ def most_felt_hz(samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorPr
     return dominant_frequency_hz(samples, sample_rate_hz, weight_db=lambda f: over_threshold_db(f, actuator))
 
 
-def felt_level_of_spectrum_db(
-    spectrum: NDArray[np.complex128], n_samples: int, sample_rate_hz: float, actuator: ActuatorProfile | None = None
-) -> float:
-    """Return `felt_level_db` of a loop [dB], from its real Fourier transform (n_samples // 2 + 1,)."""
-    return _level_db(_felt(spectrum, n_samples, sample_rate_hz, actuator)[1])
-
-
-def _felt(
-    spectrum: NDArray[np.complex128], n_samples: int, sample_rate_hz: float, actuator: ActuatorProfile | None
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    f = np.fft.rfftfreq(n_samples, 1.0 / sample_rate_hz).astype(np.float64)
-    inside = (f >= TACTILE_RANGE_HZ[0]) & (f <= min(TACTILE_RANGE_HZ[1], 0.5 * sample_rate_hz))
-    f = f[inside]
-    amplitude = 2.0 * np.abs(spectrum[inside]) / n_samples
-    return f, amplitude**2 * 10 ** (over_threshold_db(f, actuator) / 10)
-
-
 def over_threshold_db(f: NDArray[np.float64], actuator: ActuatorProfile | None = None) -> NDArray[np.float64]:
     """Return the level at which full scale is felt at frequencies (n,) [dB over the threshold of touch]."""
     return (response_db(actuator, f) if actuator else 0.0) - threshold_db(f)
 
 
-def _level_db(felt: NDArray[np.float64]) -> float:
+def sum_db(felt: NDArray[np.float64]) -> float:
+    """Return the sensation level of components (n,), each as `felt_spectrum` gives it [dB]."""
     total = float(felt.sum())
     return 10.0 * math.log10(total) if total > 0.0 else -math.inf
 

@@ -10,13 +10,11 @@ import scipy
 from numpy.typing import NDArray
 
 from scene2hap.audio.actuators import response_db
-from scene2hap.audio.conversion.meter import Block
+from scene2hap.audio.conversion.meter import AT_ONCE, Block
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ, threshold_db
 from scene2hap.haptics import ActuatorProfile
 
 _SEGMENT_S, _OVERLAP = 1.0, 0.1
-_AT_ONCE = 4
-"""Channels that are transformed together: as many as a processor's registers hold. Each takes a third of the time."""
 
 
 class FeltLevel:
@@ -51,7 +49,7 @@ class FeltLevel:
             self._filled, at = self._filled + n, at + n
             if self._filled == size:
                 self._full.append(self._segment.copy())
-                if len(self._full) * len(self._segment) >= _AT_ONCE:
+                if len(self._full) * len(self._segment) >= AT_ONCE:
                     self._hear_full()
                 self._segment[:, : self._overlap] = self._segment[:, -self._overlap :]
                 self._filled = self._overlap

@@ -13,8 +13,9 @@ from scene2hap.audio.anchor.whole_sound import HIGHEST_PEAK_DB, anchor_of, best_
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
-from scene2hap.audio.levels import sensation_level_db, threshold_db
+from scene2hap.audio.levels import felt_level_db, sensation_level_db, threshold_db
 from scene2hap.audio.tactile import CONVERTERS
+from scene2hap.haptics import ActuatorProfile
 from sound_draws import band_noise, coloured_noise
 
 RATE = 8000
@@ -136,6 +137,48 @@ def test_noise_is_anchored_in_a_band_that_reaches_the_requested_level(slope: flo
     loop = felt_loop(clip, CONVERTERS.build("auto"), plan)
     assert loop.felt is not None
     assert loop.felt.level_db == pytest.approx(loop.felt.asked_level_db, abs=3.0)
+
+
+def error_of_band_db(x: np.ndarray, own_hz: float, asked_db: float, actuator: ActuatorProfile) -> float:
+    """By how much a band misses its level below the highest peak: transforms of the whole sound, eight times as dense
+    in time as its samples."""
+    f = np.maximum(np.fft.rfftfreq(len(x), 1.0 / RATE), 1e-3)
+    band = np.fft.rfft(x - x.mean()) / (1.0 + (2.0 * (f / own_hz - own_hz / f)) ** 2)
+    peak = 8 * np.abs(np.fft.irfft(band, 8 * len(x))).max()
+    return asked_db - felt_level_db(np.fft.irfft(band, len(x)) / peak, RATE, actuator) - HIGHEST_PEAK_DB
+
+
+@pytest.mark.parametrize("actuator", ["flat", "voice_coil"])
+@pytest.mark.parametrize("seed", range(6))
+def test_no_band_of_noise_or_ticks_is_closer_to_the_level_than_the_anchor(seed: int, actuator: str) -> None:
+    """Most bands are ruled out by a bound of their error; none of them may be the best one, or an accepted one."""
+    rng, profile, asked_db = np.random.default_rng(seed), actuator_profile(actuator), sensation_level_db(1.0)
+    x = 0.2 * coloured_noise(rng, 3 * RATE, rng.uniform(-1.0, 0.5))
+    if seed % 2:
+        x *= np.arange(len(x)) % (RATE // 5) < RATE // 100
+    found = anchor_of(x, RATE, asked_db, profile)
+    assert found is not None
+    if found.carrier_hz is None:
+        bands_hz = 10 ** (np.arange(20, 27) / 10)  # 100 to 398 Hz
+        errors_db = [error_of_band_db(x, hz, asked_db, profile) for hz in bands_hz]
+        own_db = error_of_band_db(x, found.frequency_hz, asked_db, profile)
+        assert own_db <= max(2.0, min(errors_db)) + 0.1
+
+
+def test_bands_of_noise_that_are_out_of_reach_are_not_computed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Above 350 Hz touch is so insensitive that no band of white noise is felt at its level. In an earlier version each
+    was searched for its peak, with as many samples as the sound has."""
+    lengths: list[int] = []
+    inverse = scipy.fft.irfft
+
+    def counting(x: np.ndarray, n: int) -> np.ndarray:
+        lengths.append(n)
+        return np.asarray(inverse(x, n))
+
+    monkeypatch.setattr(scipy.fft, "irfft", counting)
+    x = 0.2 * np.random.default_rng(0).standard_normal(5 * 48_000)
+    assert anchor_of(x, 48_000, sensation_level_db(1.0), actuator_profile("flat")) is not None
+    assert sum(lengths) < 3 * len(x)
 
 
 @pytest.mark.parametrize("seed", range(3))
