@@ -121,9 +121,9 @@ def test_paths_outside_the_root_are_refused(bridge: Bridge, root: Path, path: st
         (root / "link").symlink_to(root.parent, target_is_directory=True)
     with Client(bridge().url) as client:
         for kind, field in (("play", "bundle"), ("bake", "path")):
-            with pytest.raises(Refused, match="below|cannot be used|should have at least"):
+            with pytest.raises(Refused, match="below|cannot be used|at least 1"):
                 client.ask(kind, **{field: path})
-        with pytest.raises(Refused, match="below|cannot be used|should have at least"):
+        with pytest.raises(Refused, match="below|cannot be used|at least 1"):
             client.ask("bake", path="desk.glb", save=path)
 
 
