@@ -5,20 +5,12 @@ from __future__ import annotations
 import os
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import NoneType
 from typing import Any, ClassVar, Self, get_args
 
-from pydantic import (
-    BaseModel,
-    ConfigDict,
-    ModelWrapValidatorHandler,
-    ValidationError,
-    ValidationInfo,
-    field_validator,
-    model_validator,
-)
+from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator, model_validator
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes
@@ -65,7 +57,7 @@ class Settings(BaseModel):
 
     @model_validator(mode="wrap")
     @classmethod
-    def _has_names(cls, value: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+    def _has_names(cls, value: Any, handler: Callable[[Any], Self]) -> Self:
         """Refuse settings inside of others that Python cannot pass by name."""
         unnamed = [name for name in value if not isinstance(name, str)] if isinstance(value, Mapping) else []
         if unnamed:
