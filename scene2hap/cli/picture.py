@@ -24,7 +24,10 @@ def draw_envelopes(frames: Sequence[PlayedFrame], hands: Sequence[str], sample_r
     draw = ImageDraw.Draw(image)
     font = ImageFont.load_default(15)
     draw.text(
-        (MARGIN, 14), "What each hand felt: peak of the vibration over time", fill=_INK, font=ImageFont.load_default(19)
+        (MARGIN, 14),
+        "What each hand felt: peak of the vibration over time, re full scale",
+        fill=_INK,
+        font=ImageFont.load_default(19),
     )
     for row, hand in enumerate(hands):
         base = TOP + ROW * (row + 1) - 14
