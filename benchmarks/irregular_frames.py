@@ -17,22 +17,21 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Callable
+import sys
+from pathlib import Path
 
 import numpy as np
 
-from scene2hap import Box, Pose, SceneObject, SceneSnapshot
-from scene2hap.contact.graph import ContactGraph
-from scene2hap.session.impacts.landings import Landing, Landings
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
-G, TOP_M, RESTS_M, RATES_HZ = 9.81, 0.7, 0.76, (60, 72, 90, 120)
+from cup_over_table import G, Shown, fall, landings_of, put_down, shaken
+
+RATES_HZ = (60, 72, 90, 120)
 FALLS_M = (0.02, 0.03, 0.05, 0.1, 0.3, 1.0)
 KINDS = ("even", "late", "stalls", "half rate", "blocks", "uneven calls", "physics", "physics and stalls")
 
-Height = Callable[[float], float]
 
-
-def frames(kind: str, hz: int, lasts_s: float, rng: np.random.Generator) -> list[tuple[float, float]]:
+def frames(kind: str, hz: int, lasts_s: float, rng: np.random.Generator) -> Shown:
     """Time of the shown pose and of the clock for each frame [s]."""
     n = math.ceil(lasts_s * hz)
     lengths = np.full(n, 1 / hz)
@@ -54,61 +53,15 @@ def frames(kind: str, hz: int, lasts_s: float, rng: np.random.Generator) -> list
     return list(zip(shown.tolist(), clock.tolist(), strict=True))
 
 
-def put_down(rng: np.random.Generator) -> tuple[Height, float]:
-    """Height over the table by time of a stroke of least jerk, and its duration with a rest before and after [s]."""
-    height_m, most_m_s2 = float(rng.uniform(0.02, 0.3)), float(rng.uniform(1, 6))
-    lasts_s = math.sqrt(10 / math.sqrt(3) * height_m / most_m_s2)
-
-    def at(time_s: float) -> float:
-        s = min(max(0.0, (time_s - 0.2) / lasts_s), 1.0)
-        return height_m * (1 - s**3 * (10 - 15 * s + 6 * s * s))
-
-    return at, lasts_s + 0.5
-
-
-def shaken(rng: np.random.Generator) -> tuple[Height, float]:
-    """The same of a motion up and down, to 0 to 2 cm over the table."""
-    hz, most_m_s2, gap_m = float(rng.uniform(1, 8)), float(rng.uniform(1, 6)), float(rng.uniform(0, 0.02))
-    swing_m, end_s = most_m_s2 / (2 * math.pi * hz) ** 2, 0.3 + math.floor(1.5 * hz) / hz
-
-    def at(time_s: float) -> float:
-        return gap_m + swing_m * (1 + math.cos(2 * math.pi * hz * (min(max(0.3, time_s), end_s) - 0.3)))
-
-    return at, 2.0
-
-
-def landings_of(height_m: Height, shown: list[tuple[float, float]]) -> list[Landing]:
-    """The landings of the cup, until half a second after the last frame."""
-    table = SceneObject("table", pose=Pose((0.0, TOP_M / 2, 0.0)), geometry=Box((1.2, TOP_M, 0.8)))
-    cup = SceneObject("cup", pose=Pose((0.0, RESTS_M + height_m(0.0), 0.0)), geometry=Box((0.08, 0.12, 0.08)))
-    graph, found, half_m = ContactGraph(SceneSnapshot.build([table, cup])), list[Landing](), {"cup": (0.04, 0.06, 0.04)}
-    landings = Landings(
-        graph,
-        lambda object_id: (0.0, 0.0, 0.0),
-        lambda object_id: half_m.get(object_id, (0.6, TOP_M / 2, 0.4)),
-        lambda object_id, way: None,
-        lambda object_id, other: None,
-        1 / 90,
-        1,
-    )
-    rest = [(None, shown[-1][1] + 0.011 * (i + 1)) for i in range(45)]
-    for pose_s, time_s in [*shown, *rest]:
-        poses = {} if pose_s is None else {"cup": Pose((0.0, RESTS_M + height_m(pose_s), 0.0))}
-        landings.begin(poses, time_s)
-        graph.update(poses)
-        found += landings.look(poses, time_s)
-    return found
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--draws", type=int, default=25, help="motions of each kind and rate of frames")
     given = parser.parse_args()
     n, draws = given.draws * len(RATES_HZ), [(hz, seed) for hz in RATES_HZ for seed in range(given.draws)]
     print(
-        f"{n} motions in each cell: those that landed, or for falls the share found, never twice, and found over true"
+        f"{n} motions in each cell. Of hands: how many landed. Of falls: the share that was found, none twice, and the"
     )
-    print("speed: mean and least.\n")
+    print("mean and the least of the found over the true speed.\n")
     print("| motion | " + " | ".join(KINDS) + " |")
     print("|---" * (1 + len(KINDS)) + "|")
     for name, motion in (("put down", put_down), ("shaken", shaken)):
@@ -129,9 +82,7 @@ def main() -> None:
                 rng = np.random.default_rng((seed, hz))
                 held_s = float(rng.uniform(0.1, 0.6))
                 shown = frames(kind, hz, held_s + falls_s + 0.3, rng)
-                found = landings_of(
-                    lambda t, h=fall_m, a=held_s, b=falls_s: h - G / 2 * min(max(0.0, t - a), b) ** 2, shown
-                )
+                found = landings_of(fall(fall_m, held_s), shown)
                 if len(found) > 1:
                     raise SystemExit(f"a fall of {fall_m} m landed {len(found)} times: {kind}, {hz} Hz, seed {seed}")
                 ratios += [one.speed_m_s / (G * falls_s) for one in found]

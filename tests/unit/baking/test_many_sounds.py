@@ -122,7 +122,7 @@ def test_plugins_are_searched_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_an_object_whose_sounds_are_all_too_short_is_named(tmp_path: Path) -> None:
-    """In an earlier version the message named the file alone, so that nobody knew which object wanted it."""
+    """The name of the file alone does not tell which object needs a longer sound."""
     soundfile.write(tmp_path / "fan.wav", 0.3 * np.sin(2 * np.pi * 120 * np.arange(48_000) / 48_000), 48_000)
     scene = SceneSnapshot.build([SceneObject("desk fan 7", geometry=Box((0.3, 0.4, 0.2)))])
     with pytest.raises(AudioError, match=r"'desk fan 7'.*none of 1 candidate is long enough.*lasts 1\.00 s.*'synth'"):

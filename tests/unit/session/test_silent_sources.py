@@ -93,6 +93,6 @@ def test_a_call_that_fails_changes_nothing(wrong: dict[str, object]) -> None:
 
 
 def test_an_unknown_state_is_refused_with_the_switch() -> None:
-    """In an earlier version the message for "off" named the states alone, none of which switches a source off."""
+    """None of the states that the message names switches a source off."""
     with pytest.raises(SessionError, match="no state 'off'; it has .* on=True and on=False switch it"):
         humming_hob().set_source("hob", state="off")
