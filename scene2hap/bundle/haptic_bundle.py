@@ -28,6 +28,7 @@ from scene2hap.errors import AudioError, BundleError, CallError, MaterialError, 
 from scene2hap.haptics import is_unknown
 from scene2hap.materials import Material
 from scene2hap.scene.plausibility.check import too_heavy
+from scene2hap.scene.surface import plate_sizes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
@@ -80,6 +81,7 @@ class HapticBundle(BundleContents):
         state: str | None = None,
         muted: bool | None = None,
         mass_kg: float | None = None,
+        thickness_m: float | None = None,
         feet: Material | str | None = None,
         start_up_s: float | Mapping[str, float] | None = None,
         wind_down_s: float | Mapping[str, float] | None = None,
@@ -90,9 +92,9 @@ class HapticBundle(BundleContents):
         path of one, keeps its own frequency; `keep=False` allows moving it away from the scene's other
         sources. Intensity, pitch and the times of start and stop are numbers for all states, or mappings by state.
         `state` is the state at the start. Corrections are kept in the folder and by `rebake`. Level, material, mass,
-        feet, times, first state, mute and silence take effect at once. The others, and vibration of an object that was
-        inferred silent, need `rebake(bundle)`, which makes the loops. The loops of a locked object stay unchanged, byte
-        for byte; a correction that would change them is rejected.
+        thickness of the main surface, feet, times, first state, mute and silence take effect at once. The others, and
+        vibration of an object that was inferred silent, need `rebake(bundle)`, which makes the loops. The loops of a
+        locked object stay unchanged, byte for byte; a correction that would change them is rejected.
         Raises: UnknownObject; BundleError: a field out of bounds, an unknown state of the object, or a change of the
         loops of a locked object; UnknownMaterial; AudioError: a clip that cannot be read or lasts less than 0.1 s.
         Warns: SceneWarning: a correction of vibration for an object that does not vibrate, a level that looks like a
@@ -112,6 +114,7 @@ class HapticBundle(BundleContents):
             "state": state,
             "muted": muted,
             "mass_kg": mass_kg,
+            "thickness_m": thickness_m,
             "feet": feet,
             "start_up_s": start_up_s,
             "wind_down_s": wind_down_s,
@@ -139,6 +142,8 @@ class HapticBundle(BundleContents):
             )
         if wish.gain_db is not None and gain_db is not None:
             warn_if_percent(wish.gain_db)
+        if wish.thickness_m is not None and thickness_m is not None:
+            self._require_thickness(object_id, wish.thickness_m)
         if mass_kg is not None and (heavy := too_heavy(self.snapshot.object(object_id), mass_kg)):
             warn_of(heavy)
         overrides = {**self.overrides, object_id: wish}
@@ -211,6 +216,13 @@ class HapticBundle(BundleContents):
             if state not in known:
                 has = f"it has {', '.join(map(repr, known))}" if known else "it does not vibrate and has none"
                 raise BundleError(f"{object_id!r} has no state {checks.shown(state)}; {has}.")
+
+    def _require_thickness(self, object_id: str, thickness_m: float) -> None:
+        """Raise a BundleError if the object's plate cannot have a thickness."""
+        measured_m = self.snapshot.object(object_id).size_m
+        wrong = plate_sizes.faults((*measured_m[:2], thickness_m), measured_m)
+        if "thickness" in wrong:
+            raise BundleError(f"thickness_m of {object_id!r} is {wrong['thickness']}.")
 
     def _require_played(self, object_id: str, wish: Override) -> None:
         """Raise a BundleError if the bundle's actuator does not play a pitch."""

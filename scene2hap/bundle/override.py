@@ -16,7 +16,7 @@ from scene2hap.common.calls import clear_construction
 from scene2hap.errors import BundleError
 from scene2hap.haptics import LONGEST_PASSAGE_S, ObjectHaptics, SourceState, checked_mass_kg
 from scene2hap.materials import Material, lookup
-from scene2hap.scene.surface.plate_sizes import with_thickness
+from scene2hap.scene.surface.plate_sizes import THINNEST_M, with_thickness
 
 USER = "user"
 """Provenance of an overridden field."""
@@ -52,7 +52,8 @@ class Override:
 
     vibrates : True if the object vibrates by itself.
     gain_db : its level at the hand, relative to the inferred one, -120..60 [dB].
-    mass_kg : mass of the whole object [kg].
+    mass_kg : mass of the whole object [kg]. thickness_m : of its main surface, such as the sheet of a cabinet that was
+        measured as a solid block [m].
     feet : the material of its feet, or a name in the table.
     name : what it is, such as "washing machine". Inference reads this instead of the authored name.
     material : its material, or a name in the table.
@@ -78,6 +79,7 @@ class Override:
     state: str | None = None
     muted: bool = False
     mass_kg: float | None = None
+    thickness_m: float | None = None
     feet: Material | None = None
     start_up_s: Mapping[str, float] = field(default_factory=dict)
     wind_down_s: Mapping[str, float] = field(default_factory=dict)
@@ -105,6 +107,9 @@ class Override:
             object.__setattr__(self, "gain_db", gain)
         if self.mass_kg is not None:
             object.__setattr__(self, "mass_kg", checked_mass_kg(self.mass_kg, BundleError))
+        if self.thickness_m is not None:
+            thickness_m = checks.number("thickness_m", self.thickness_m, "m", at_least=THINNEST_M, error=BundleError)
+            object.__setattr__(self, "thickness_m", thickness_m)
         for name in ("material", "feet"):
             given = getattr(self, name)
             if isinstance(given, str):
@@ -149,6 +154,10 @@ class Override:
             haptics = replace(
                 haptics, material=self.material, material_category=self.material.name, estimated_size_m=size_m
             )
+        if self.thickness_m is not None:
+            provenance["estimated_size_m"] = USER
+            length_m, width_m, _ = haptics.estimated_size_m
+            haptics = replace(haptics, estimated_size_m=(length_m, width_m, self.thickness_m))
         if self.feet is not None:
             provenance["feet"] = USER
             haptics = replace(haptics, feet=self.feet)

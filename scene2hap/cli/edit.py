@@ -7,6 +7,7 @@ scene2hap edit kitchen.bundle start fan 1.5
 scene2hap edit kitchen.bundle stop fan 4
 scene2hap edit kitchen.bundle material table oak
 scene2hap edit kitchen.bundle mass microwave 14
+scene2hap edit kitchen.bundle thickness dining_table 0.03
 scene2hap edit kitchen.bundle feet microwave rubber
 scene2hap edit kitchen.bundle sound fan my_fan.wav
 scene2hap edit kitchen.bundle sound fan my_fan.wav --watch
@@ -129,6 +130,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     material.add_argument("material", metavar="NAME", help="a name in the table, see `scene2hap list materials`")
     mass = verb("mass", "set the mass of a whole object", _overridden)
     mass.add_argument("mass_kg", metavar="KG", type=float)
+    thickness = verb("thickness", "set the thickness of an object's main surface", _overridden)
+    thickness.add_argument("thickness_m", metavar="M", type=float, help="in metres; 0.001 is a sheet of 1 mm")
     feet = verb("feet", "set the material of an object's feet", _overridden)
     feet.add_argument("feet", metavar="NAME", help="a name in the table, such as rubber or felt")
     sound = verb("sound", "make the vibration of an object from your own sound, in every state", _remade)

@@ -43,6 +43,45 @@ def test_material_override_accepts_a_name_or_constants(bundle: HapticBundle) -> 
     assert changed.provenance["material"] == "user"
 
 
+def test_thickness_override_changes_how_far_vibration_goes(bundle: HapticBundle, tmp_path: Path) -> None:
+    """Cremer & Heckl: a bending wave's number is proportional to 1 / sqrt(h), so a quarter of h doubles the loss."""
+
+    def loss_db(of: HapticBundle) -> float:
+        with HapticSession(of, hands=("left",)) as session:
+            near, far = (
+                session.update(touches=[Touch("left", "table", (x_m, 0.72, 0.4))]).gain("left", "phone")
+                for x_m in (0.3, 0.9)
+            )
+        return float(20.0 * np.log10(near / far))
+
+    thin = bundle.override("table", thickness_m=0.005)
+    assert loss_db(thin) / loss_db(bundle) == pytest.approx(2.0, rel=0.01)
+    assert thin.objects["table"].estimated_size_m == (1.6, 0.8, 0.005)
+    assert thin.objects["table"].provenance["estimated_size_m"] == "user"
+    loaded = HapticBundle.load(thin.save(tmp_path / "b"))
+    assert loaded.objects == thin.objects
+    assert loaded.overrides == thin.overrides
+    assert loaded.reset("table").objects == bundle.objects
+
+
+@pytest.mark.parametrize("thickness_m", [3.0, 1e-6, -0.02])
+def test_thickness_that_the_object_cannot_have_is_refused(bundle: HapticBundle, thickness_m: float) -> None:
+    with pytest.raises(BundleError, match=rf"thickness_m.* is {thickness_m:g}.* m"):
+        bundle.override("table", thickness_m=thickness_m)
+
+
+def test_thickness_of_a_person_stays_where_the_mesh_is_another_now(bundle: HapticBundle, tmp_path: Path) -> None:
+    folder = bundle.override("table", thickness_m=0.2).save(tmp_path / "b")
+    document = json.loads((folder / "scene.json").read_text())
+    (table,) = (item for item in document["objects"] if item["id"] == "table")
+    table["surface"]["width_m"] = 0.3  # a third of it is less than 0.2 m, and so is three times the measured 0.02 m
+    (folder / "scene.json").write_text(json.dumps(document))
+    rows = json.loads((folder / "objects.json").read_text())
+    rows["table"]["estimated_size_m"][1] = 0.3
+    (folder / "objects.json").write_text(json.dumps(rows))
+    assert HapticBundle.load(folder).objects["table"].estimated_size_m[2] == 0.2
+
+
 def test_level_override_changes_the_output(bundle: HapticBundle) -> None:
     source = next(iter(bundle.loops))
     touch = [Touch("left", source, bundle.snapshot.object(source).pose.position_m)]
