@@ -214,6 +214,7 @@ def _editable(bundle: HapticBundle, item: SceneObject, haptics: ObjectHaptics) -
     return {
         "name": item.name if wish.name is None else wish.name,
         "material": "" if haptics.material is None else haptics.material.name,
+        "thickness_m": float(f"{haptics.estimated_size_m[2]:.4g}"),
         "mass_kg": haptics.mass_kg,
         "gain_db": bundle.gain_db(object_id),
         "vibrates": haptics.vibrates,

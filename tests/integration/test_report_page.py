@@ -194,6 +194,18 @@ def test_a_name_says_what_an_object_is(opened: Opened) -> None:
     assert opened.report("overrides()")["overrides"] == {}
 
 
+def test_a_thickness_is_corrected(opened: Opened) -> None:
+    opened.report("select('table')")
+    thickness = opened.page.locator("[data-field=thickness_m]")
+    shown = re.search(r"× (\d+) mm", opened.page.locator("body").inner_text())
+    assert shown is not None
+    assert 1000 * float(thickness.input_value()) == pytest.approx(int(shown[1]), abs=0.5)
+    thickness.fill("0")
+    assert thickness.get_attribute("aria-invalid") == "true"
+    thickness.fill("0.01")
+    assert opened.report("overrides()")["overrides"] == {"table": {"thickness_m": 0.01}}
+
+
 def test_the_table_is_searched_sorted_and_used_by_keys(opened: Opened) -> None:
     body = opened.page.locator("table.list tbody")
     opened.page.get_by_role("button", name="name", exact=True).click()

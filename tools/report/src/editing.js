@@ -6,6 +6,7 @@ const FIELDS = [
   { field: "name", label: "name: what it is", kind: "text", maxlength: 200 },
   { field: "gain_db", label: "gain [dB]", kind: "number", min: -120, max: 60, step: 0.5 },
   { field: "material", label: "material", kind: "text" },
+  { field: "thickness_m", label: "thickness [m]", kind: "number", min: 0.00002, max: 10, step: "any" },
   { field: "mass_kg", label: "mass [kg]", kind: "number", min: 0.0001, max: 1e6, step: "any" },
   { field: "vibrates", label: "vibrates", kind: "checkbox" },
   { field: "muted", label: "muted at the start", kind: "checkbox" },
