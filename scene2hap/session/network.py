@@ -67,7 +67,10 @@ def body_of(haptics: ObjectHaptics | None, surface: DominantSurface | None = Non
         scale = length_m / surface.length_m, width_m / surface.width_m
         plate = Plate.of_outline(_scaled(surface.outline, scale), thickness_m, material)
     is_estimate = haptics.provenance.get("mass_kg", USER) not in _WEIGHED
-    return replace(plate, object_mass_kg=haptics.mass_kg, mass_is_estimate=is_estimate, feet=haptics.feet)
+    mass_kg = haptics.mass_kg
+    if mass_kg is not None and is_estimate and haptics.provenance.get("estimated_size_m") == USER:
+        mass_kg = max(mass_kg, plate.mass_kg)  # A person's thickness outranks an estimate of the mass.
+    return replace(plate, object_mass_kg=mass_kg, mass_is_estimate=is_estimate, feet=haptics.feet)
 
 
 @lru_cache(maxsize=1024)

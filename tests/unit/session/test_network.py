@@ -1,4 +1,4 @@
-"""The joint loss of assembled furniture: physical models include it, the paper's law does not."""
+"""Plates of objects: corrected thicknesses, and the joint loss of furniture, which the paper's law ignores."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from scene2hap import HapticSession, Touch, materials
+from scene2hap import HapticSession, ObjectHaptics, Touch, materials
+from scene2hap.bundle import Override
+from scene2hap.propagation.coupled.hollow import no_heavier_than_object
 from scene2hap.session.network import body_of
 from scenes import table_with_two_phones
 
@@ -48,3 +50,14 @@ def test_exponential_law_ignores_loss_factors() -> None:
         for one in named
     ]
     np.testing.assert_array_equal(gains[0], gains[1])
+
+
+def test_thickness_of_a_person_outranks_an_estimated_mass_but_no_weighed_one() -> None:
+    """Models make a plate thinner that is heavier than its object, as that of a hollow one."""
+    inferred = ObjectHaptics("table", "oak", materials.lookup("oak"), (1.6, 0.85, 0.03), "", False, mass_kg=10.0)
+    for by, limited in (("lexicon", False), ("scene", True)):
+        weighed = replace(inferred, provenance={"mass_kg": by})
+        plate = body_of(Override(thickness_m=0.1).applied(weighed))
+        assert plate is not None
+        assert plate.thickness_m == 0.1
+        assert (no_heavier_than_object(plate).thickness_m < 0.1) == limited
