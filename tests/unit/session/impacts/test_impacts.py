@@ -298,8 +298,10 @@ def test_an_object_that_is_touched_next_is_prepared_beside_the_last_ones() -> No
     assert made.strike("table", STRUCK, with_object="cup", speed_m_s=2.0).felt
 
 
-def test_an_impact_sounds_with_the_next_block_and_ends() -> None:
-    made = session()
+@pytest.mark.parametrize("kind", ["exponential_plate", "no_propagation", "full_propagation"])
+def test_an_impact_sounds_with_the_next_block_and_ends(kind: str) -> None:
+    """Also with the control conditions of the paper, so that no participant tells them apart by their delay."""
+    made = session(propagation=kind)
     made.update(touches=touches())
     made.render(256)
     impact = made.strike("table", STRUCK, with_object="cup")
