@@ -1,22 +1,30 @@
 """The two control conditions of the paper's second study: no propagation, and full propagation.
 
+Both have live fields, as the law has, so that all conditions follow contacts and impacts within the same time.
+
 Source: Jingu, AliAbbasi et al., Scene2Hap, CHI 2026, section "Effect of Vibration Propagation on Haptic Perception".
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common.calls import clear_construction
 from scene2hap.haptics import Bands
+from scene2hap.propagation.live import CostsByHand, TouchedPoint
+from scene2hap.propagation.paths.live_law import LiveLaw, LivePaths
 from scene2hap.propagation.paths.prepared_paths import cheapest_arrivals
 from scene2hap.propagation.points import object_points
-from scene2hap.propagation.protocol import ContactNetwork, Excitation, require_hops, require_input
+from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation, require_hops, require_input
+
+if TYPE_CHECKING:
+    from scene2hap.contact.graph import ContactGraph
 
 
 @clear_construction
@@ -30,6 +38,12 @@ class NoPropagation:
         """Prepare the field in which every source reaches itself alone."""
         require_input(network, excitations, bands)
         return ReachField(tuple((item.source_id, frozenset({item.source_id})) for item in excitations), bands.n_bands)
+
+    def live(
+        self, graph: ContactGraph, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands
+    ) -> LiveItself:
+        """Return the field in which every source reaches itself alone; see `LiveModel`."""
+        return LiveItself(tuple(item.source_id for item in excitations), bands.n_bands)
 
 
 @clear_construction
@@ -60,6 +74,25 @@ class FullPropagation:
         )
         return ReachField(tuple(reached), bands.n_bands)
 
+    def live(
+        self, graph: ContactGraph, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands
+    ) -> LiveLaw:
+        """Return the field over a contact graph that changes between queries: the law, with paths that cost nothing;
+        see `LiveModel`."""
+        source_ids, n_bands = tuple(item.source_id for item in excitations), bands.n_bands
+
+        def arrives(costs: CostsByHand, columns: Sequence[int] | None = None) -> NDArray[np.float64]:
+            n_columns = len(source_ids if columns is None else columns)
+            is_reached = np.isfinite(np.reshape(costs, (len(costs), n_columns, 1)))
+            return np.repeat(is_reached.astype(np.float64), n_bands, axis=2)
+
+        paths = LivePaths(graph, dict.fromkeys(bodies, 0.0), _free_crossing, source_ids, self.max_hops)
+        return LiveLaw(paths, source_ids, arrives, 0.0)
+
+
+def _free_crossing(weight: float) -> float:
+    return 0.0 if weight > 0 else math.inf
+
 
 @dataclass(frozen=True)
 class ReachField:
@@ -78,3 +111,34 @@ class ReachField:
         n_points = len(object_points(object_id, points_m))
         reached = np.array([float(object_id in objects) for _, objects in self.reach])
         return np.broadcast_to(reached[None, :, None], (n_points, len(reached), self.n_bands)).copy()
+
+
+class LiveItself:
+    """A live field with gain 1 on the source itself, and on the object that is struck."""
+
+    most: float = 1.0
+
+    def __init__(self, source_ids: tuple[str, ...], n_bands: int) -> None:
+        self.source_ids = source_ids
+        self._n_bands = n_bands
+
+    def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> NDArray[np.float64]:
+        """See `LiveField`."""
+        return _touched(hands, self.source_ids, self._n_bands)
+
+    def from_point(
+        self,
+        object_id: str,
+        point_m: tuple[float, float, float],
+        hands: Sequence[Sequence[TouchedPoint]],
+        frequencies_hz: NDArray[np.float64],
+    ) -> NDArray[np.float64]:
+        """See `PointField`."""
+        return _touched(hands, (object_id,), len(frequencies_hz))[:, 0]
+
+
+def _touched(hands: Sequence[Sequence[TouchedPoint]], ids: Sequence[str], n_bands: int) -> NDArray[np.float64]:
+    """1 where a hand touches an object, else 0 (n_hands, n_ids, n_bands)."""
+    is_touched = [[any(object_id == one for object_id, _ in touched) for one in ids] for touched in hands]
+    gains = np.array(is_touched, dtype=np.float64).reshape(len(hands), len(ids), 1)
+    return np.repeat(gains, n_bands, axis=2)

@@ -91,6 +91,21 @@ def soft_limit(mix: NDArray[np.float32]) -> NDArray[np.float32]:
     return limited
 
 
+def soft_limit_sum(mix: NDArray[np.float32], total: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return the sum of a limited mix and more signals within [-1, 1]; float32, `mix` and `total` of one shape.
+
+    The curve begins at the mix itself where that exceeds -3 dB, so that a mix to which nothing is added stays as it is.
+    If it passed the curve again, each impact would begin and end with a step, also at hands that do not feel it.
+    """
+    size = np.abs(total)
+    if not total.size or np.maximum.reduce(size, axis=None) <= THRESHOLD:
+        return total
+    knee = np.maximum(np.abs(mix), np.float32(THRESHOLD))
+    rest = np.maximum(1 - knee, np.float32(1e-9))  # no division by 0 at full scale
+    limited = np.copysign(knee + rest * np.tanh((size - knee) / rest), total)
+    return np.where(size > knee, limited, total)
+
+
 @compiled
 def limit_in_place(mix: NDArray[np.float32], scratch: NDArray[np.float32], threshold: float) -> None:
     """Apply `soft_limit` in place to (n_channels, n_frames). Scratch has the mix's shape, so nothing large is

@@ -15,6 +15,7 @@ from scene2hap.common.failures import failure_of
 from scene2hap.common.warning import warn_of
 from scene2hap.haptics import Bands
 from scene2hap.propagation.controls import NoPropagation
+from scene2hap.propagation.exponential_plate import ExponentialPlate
 from scene2hap.propagation.live import LiveField, LiveModel, SucceedingField, TouchedPoint
 from scene2hap.propagation.protocol import (
     Body,
@@ -351,9 +352,11 @@ class LiveKeeper:
 def keeper_of(config: SessionConfig, state: SceneState, excitations: Sequence[Excitation]) -> FieldProvider:
     """Return the keeper for the configured model: `LiveKeeper` if the model has a live field."""
     model, bands = config.propagation, config.bands
-    if isinstance(model, LiveModel):
+    # The law is its own reference.
+    is_scaled = config.reference == "felt_near" and not isinstance(model, ExponentialPlate)
+    if isinstance(model, LiveModel) and not is_scaled:
         return LiveKeeper(model, bands, state, excitations)
-    if config.reference == "felt_near":
+    if is_scaled:
         model = FeltNear(model)
     is_background, skips_unreachable = config.prepare == "background", config.skips_unreachable
     return FieldKeeper(

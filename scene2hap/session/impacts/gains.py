@@ -17,7 +17,14 @@ import numpy as np
 from scene2hap.common.arrays import Floats
 from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.live import PointField, TouchedPoint
-from scene2hap.propagation.protocol import Excitation, PropagationModel, follows_poses
+from scene2hap.propagation.protocol import (
+    ContactNetwork,
+    CoupledModel,
+    Excitation,
+    PropagationField,
+    PropagationModel,
+    follows_poses,
+)
 from scene2hap.scene.objects import Contact
 from scene2hap.session.scene_state import SceneState
 
@@ -73,7 +80,7 @@ def struck_later(
         others_m = cast("MutableMapping[str, Point]", network.middles_m)
         middles_m = ChainMap(dict.fromkeys(strikers, point_m), others_m)
         with_them = replace(network, contacts=(*network.contacts, *contacts), middles_m=middles_m)
-        field = model.prepare(with_them, excitations, AROUND)
+        field = _field_of(model, with_them, excitations)
         itself = field.attenuation(object_id, np.array([point_m]))[0, :, 0]
         gains = np.zeros((len(hands), len(frequencies_hz)))
         for row, hand in zip(gains, hands, strict=True):
@@ -84,6 +91,19 @@ def struck_later(
         return at_least_itself(gains, object_id, hands)
 
     return prepared
+
+
+def _field_of(model: PropagationModel, network: ContactNetwork, excitations: Sequence[Excitation]) -> PropagationField:
+    """Prepare the field of light sources on the struck point.
+
+    The bodies are those of the scene that is prepared in advance (`preparation`). `AutoFidelity.prepare` would choose
+    them by the level that the sources bring into a plate: such light ones bring none, so no plate would have edges.
+    """
+    if isinstance(model, CoupledModel):
+        from scene2hap.propagation.coupled.substructuring import prepare_coupled  # by need: the physical models
+
+        return prepare_coupled(model, network, excitations, AROUND, "ignore")
+    return model.prepare(network, excitations, AROUND)
 
 
 def at_least_itself(gains: Floats, object_id: str, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:

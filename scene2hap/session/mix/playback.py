@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from scene2hap.common.arrays import Indices
 from scene2hap.devices.protocol import Block
 from scene2hap.render.bursts import Bursts, Fade, PlannedBurst
-from scene2hap.render.limiter import soft_limit
+from scene2hap.render.limiter import soft_limit_sum
 from scene2hap.render.loop_bank import Slot, SlotBank, position_s
 from scene2hap.render.transition import Running, Transition, TransitionCurve
 from scene2hap.session.config import MIN_RAMP_S, SessionConfig
@@ -340,8 +340,9 @@ class Playback:
     def _render(self, plan: MixingPlan, n_frames: int) -> Block:
         mix = plan.render(self._position, n_frames)
         if not self._bursts.are_silent:
-            self._bursts.add_to(mix, self._position, plan.hands)
-            mix = soft_limit(mix)
+            total = mix.copy()
+            self._bursts.add_to(total, self._position, plan.hands)
+            mix = soft_limit_sum(mix, total)
         self._position += n_frames
         return mix
 

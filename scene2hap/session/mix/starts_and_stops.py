@@ -33,7 +33,7 @@ class Switching:
         self._sources, self._playback, self._state, self._rate_hz = sources, playback, state, sample_rate_hz
         self._passing: dict[str, _Passing] = {}
         # The frame at which a source's on-time or off-time ends, and the source, since another may get the same id.
-        self._turns: dict[str, tuple[int, Source]] = {}
+        self._turns: dict[str, tuple[float, Source]] = {}
         # Starts and stops of a saved game, which go on once the contacts of the sources are known.
         self._resumed: dict[str, tuple[Running, Source]] = {}
         self._known: tuple[str, ...] | None = None
@@ -92,8 +92,7 @@ class Switching:
         for source_id in due:
             source = self._sources[source_id]
             was_running = source.is_running
-            source.is_resting = not source.is_resting
-            self._begin_turn(source_id, source, now, 0.0)
+            self._begin_next_turn(source_id, source, now)
             self._follow(source_id, source, was_running, now)
         if self._updated is not self._known:
             self._updated = self._known
@@ -153,7 +152,7 @@ class Switching:
             source.is_resting = False  # the state has no cycle any more
         elif progress.turn_left_s is not None:
             end, _ = self._turns[source_id]
-            self._turns[source_id] = (min(end, now + round(progress.turn_left_s * self._rate_hz)), source)
+            self._turns[source_id] = (min(end, now + progress.turn_left_s * self._rate_hz), source)
 
     def _follow_sources(self, now: int) -> None:
         """Update the stored data after sources were added or removed."""
@@ -170,12 +169,35 @@ class Switching:
 
     def _begin_turn(self, source_id: str, source: Source, now: int, share: float) -> None:
         """Begin an on-time or off-time, of which a share has already passed."""
-        inferred = source.inferred.get(source.state)
-        lasts_s = None if inferred is None else inferred.off_s if source.is_resting else inferred.on_s
-        if lasts_s is None:
+        turns = self._turns_of(source)
+        if turns is None:
             self._turns.pop(source_id, None)
         else:
-            self._turns[source_id] = (now + round((1 - share) * lasts_s * self._rate_hz), source)
+            self._turns[source_id] = (now + (1 - share) * turns[source.is_resting], source)
+
+    def _begin_next_turn(self, source_id: str, source: Source, now: int) -> None:
+        """Begin the on-time or off-time that `now` is in.
+
+        It begins at the end of the last one, not at this update. Otherwise each would be late by a part of a frame, and
+        a pattern of a second would be late by half a minute after an hour.
+        """
+        turns = self._turns_of(source)
+        if turns is None:
+            del self._turns[source_id]
+            return
+        end, _ = self._turns[source_id]
+        end += (now - end) // sum(turns) * sum(turns)  # a stall of the game may last many turns
+        while end <= now:
+            source.is_resting = not source.is_resting
+            end += turns[source.is_resting]
+        self._turns[source_id] = (end, source)
+
+    def _turns_of(self, source: Source) -> tuple[float, float] | None:
+        """Durations of the on-time and the off-time of the present state [frames], None for one without a cycle."""
+        inferred = source.inferred.get(source.state)
+        if inferred is None or inferred.on_s is None or inferred.off_s is None:
+            return None
+        return inferred.on_s * self._rate_hz, inferred.off_s * self._rate_hz
 
     def _has_contact(self, source_id: str, source: Source) -> bool:
         """Whether a source has the contact that its state needs, if any.

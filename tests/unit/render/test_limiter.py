@@ -1,7 +1,7 @@
 import numpy as np
 from hypothesis import given, settings, strategies as st
 
-from scene2hap.render.limiter import THRESHOLD, soft_limit
+from scene2hap.render.limiter import THRESHOLD, soft_limit, soft_limit_sum
 
 
 @settings(max_examples=200)
@@ -27,3 +27,25 @@ def test_limiter_does_not_modify_its_input() -> None:
     x = np.full((4, 2), 3.0, dtype=np.float32)
     soft_limit(x)
     assert (x == 3.0).all()
+
+
+@settings(max_examples=200)
+@given(st.lists(st.tuples(st.floats(-1, 1, width=32), st.floats(-1e3, 1e3, width=32)), min_size=1, max_size=50))
+def test_a_sum_stays_within_full_scale_and_keeps_the_mix_where_nothing_is_added(
+    pairs: list[tuple[float, float]],
+) -> None:
+    mix, added = np.array(pairs, dtype=np.float32).T
+    added[::2] = 0.0
+    y = soft_limit_sum(mix, mix + added)
+    assert np.abs(y).max() <= 1.0
+    np.testing.assert_array_equal(y[::2], mix[::2])
+    quiet = np.abs(mix) <= THRESHOLD
+    np.testing.assert_allclose(y[quiet], soft_limit(mix + added)[quiet], atol=1e-6)
+
+
+def test_a_sum_follows_a_small_addition_to_a_loud_mix() -> None:
+    """No step as an impact begins: its first samples change a mix by no more than themselves."""
+    mix = np.linspace(-1, 1, 2001, dtype=np.float32)
+    for added in (1e-4, -1e-4, 1e-3, -1e-3):
+        change = soft_limit_sum(mix, mix + np.float32(added)) - mix
+        assert np.abs(change).max() <= abs(added) * 1.001

@@ -391,7 +391,7 @@ def test_deleted_sessions_release_memory_and_workers(kind: str) -> None:
     s.explain("left")
     s.render(480)
     workers = [t for t in threading.enumerate() if t not in before and "loops" not in t.name]
-    assert bool(workers) == (kind in {"infinite_plate", "modal_plate", "auto", "full_propagation"})
+    assert bool(workers) == (kind in {"infinite_plate", "modal_plate", "auto"})
     parts = [s, s._state, s._playback, s._hand_frames, s._hand_frames.keeper, s._impacts]
     gone = [weakref.ref(part) for part in parts]
     with no_garbage_collection():

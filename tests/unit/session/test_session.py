@@ -181,6 +181,12 @@ def test_the_model_is_one_line_of_configuration(model: object, expected: list[fl
     assert found == expected
 
 
+def test_a_live_model_is_scaled_to_the_law_near_its_source() -> None:
+    s = session(propagation="full_propagation", reference="felt_near", prepare="blocking")
+    near, far = (s.update(touches=[Touch("left", "table", (x, 0.72, 0.4))]).gain("left", "phone") for x in (0.2, 0.8))
+    assert 0.5 < near == far < 0.9  # the law's is 0.76 at 5 cm beside the middle of the phone, 0.42 at 20 cm
+
+
 @pytest.mark.parametrize("bands", [Bands.third_octaves(), "third-octaves"])
 def test_true_bands_give_one_gain_per_band(bands: object) -> None:
     s = session(bands=bands, propagation="exponential_plate")

@@ -390,12 +390,12 @@ def test_worker_starts_after_the_requesting_update_has_returned() -> None:
 
 A_GAME_THAT_ENDS = """
 import threading, time
-from scene2hap import HapticSession, NoPropagation
+from scene2hap import HapticSession
 from scenes import RATE, table_with_two_phones
 
 has_begun = threading.Event()
 
-class Endless(NoPropagation):
+class Endless:
     def prepare(self, network, excitations, bands):
         has_begun.set()
         try:

@@ -157,6 +157,19 @@ def test_source_switches_by_its_duty_cycle() -> None:
     assert (envelope(made, 0.8)[2:] > 0.5 * e.max()).all()
 
 
+def test_duty_cycle_keeps_its_time_over_many_turns_and_stalls() -> None:
+    """Parts of a frame by which each turn is late must not add up to minutes within a day."""
+    on_s, off_s, frame_s = 0.7123, 0.5281, 1 / 50
+    made = session({"on_s": on_s, "off_s": off_s}, sample_rate_hz=8000)
+    made.update()
+    made.set_source("phone", on=True)  # begins a new on-time
+    for number in range(10_000):
+        made.update()
+        into_turn_s = made.position / 8000 % (on_s + off_s)
+        assert made.source("phone").is_running == (into_turn_s < on_s), number
+        made.render_s(frame_s if number % 1000 else 1.7 * on_s + 3 * off_s)
+
+
 @pytest.mark.parametrize("after_s", [0.1, 1.2])
 @pytest.mark.parametrize("turn", [(None, None), (2.0, 1.0)])
 def test_another_state_has_its_own_turns(after_s: float, turn: tuple[float | None, float | None]) -> None:
