@@ -90,8 +90,8 @@ def failure(reply: WebReply, *, now_s: float | None = None) -> BackendUnavailabl
         parts.append("For a service without strict output, use kind 'local' with its base_url, model and api_key.")
     elif reply.status in (400, 422) and _ABOUT_PICTURES.search(error.message):
         parts.append(
-            "If the model reads no pictures, choose one that does, or bake without (`--no-pictures`; a scene without "
-            "capture_images)."
+            "If the model reads no pictures, choose one that does, or bake without them (`--no-pictures`, or a scene "
+            "without capture_images)."
         )
     elif reply.status in _HINTS:
         parts.append(_HINTS[reply.status])
