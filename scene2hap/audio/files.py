@@ -182,7 +182,9 @@ def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
     except (soundfile.SoundFileError, TypeError) as cause:  # TypeError: a headerless file, for which a rate is needed
         if is_lfs_pointer(path):
             raise AudioError(f"{path} {LFS_ADVICE}.") from cause
-        raise AudioError(f"{path}: not a readable sound ({reason_of(cause)}). Use {READABLE}.") from cause
+        # The text of libsndfile's error repeats the path, as bytes.
+        reason = str(getattr(cause, "error_string", "") or reason_of(cause)).rstrip(".")
+        raise AudioError(f"{path}: not a readable sound ({reason}). Use {READABLE}.") from cause
 
 
 def require_finite(path: Path, channels: Samples, start: int = 0) -> None:
