@@ -209,8 +209,13 @@ class HapticBundle(BundleContents):
         known = [one.name for one in haptics.states] if haptics is not None else []
         for state in states:
             if state not in known:
-                has = f"it has {', '.join(map(repr, known))}" if known else "it does not vibrate and has none"
-                raise BundleError(f"{object_id!r} has no state {checks.shown(state)}; {has}.")
+                if known:
+                    has = f"it has {', '.join(map(repr, known))}"
+                    step = "To begin silent, mute it: muted=True, or `scene2hap edit BUNDLE mute ID`."
+                else:
+                    has = "it does not vibrate and has none"
+                    step = "First vibrates=True and rebake, or `scene2hap edit BUNDLE vibrate ID`."
+                raise BundleError(f"{object_id!r} has no state {checks.shown(state)}; {has}. {step}")
 
     def _require_played(self, object_id: str, wish: Override) -> None:
         """Raise a BundleError if the bundle's actuator does not play a pitch."""
