@@ -121,6 +121,8 @@ def test_a_level_of_silence_is_refused_and_says_how_to_mute(bundle: HapticBundle
 def test_a_state_that_is_not_there_is_refused_with_the_next_step(bundle: HapticBundle) -> None:
     with pytest.raises(BundleError, match=r"'phone' has no state 'off'; it has 'ringing', 'alarm'.*muted=True.* mute"):
         bundle.override("phone", state="off")
+    with pytest.raises(BundleError, match=r"'phone' has no state 'on'; it has 'ringing', 'alarm'\.$"):
+        bundle.override("phone", pitch_hz={"on": 200})
     with pytest.raises(BundleError, match=r"'table' has no state 'on'; it does not vibrate.*vibrates=True.*vibrate ID"):
         bundle.override("table", state="on")
 
