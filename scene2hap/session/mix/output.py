@@ -80,8 +80,8 @@ class Output:
 
     @property
     def problem(self) -> str | None:
-        """Why a started sink, or one of several, plays nothing. None if all play."""
-        if self._safety is None or not self._events:
+        """Why a started sink, or one of several, plays nothing. None if all play, or the game took `on_event` since."""
+        if self._safety is None or not self._events or not self._is_listening(self.sink):
             return None
         events = list(self._events.values())  # the threads of the sinks add more
         return next((event.message for event in events if event.kind in _PROBLEMS), None)
@@ -106,8 +106,11 @@ class Output:
 
     def _listen_no_more(self, sink: ActuatorSink) -> None:
         """Give the sink its own callback back: another session may play on it next."""
-        if getattr(sink, "on_event", None) == self._note:
+        if self._is_listening(sink):
             sink.on_event = self._on_event  # type: ignore[attr-defined]  # looked up by name, see ActuatorSink
+
+    def _is_listening(self, sink: ActuatorSink | None) -> bool:
+        return getattr(sink, "on_event", None) == self._note
 
     def _note(self, event: SinkEvent) -> None:
         self._events[event.sink] = event
