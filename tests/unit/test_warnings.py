@@ -72,8 +72,10 @@ def test_corrections_warn_at_the_callers_line(bundle: HapticBundle) -> None:
 
 def test_a_warning_on_a_thread_of_the_library_points_at_the_line_that_warns() -> None:
     """There is no line of a caller, and one of the standard library says nothing."""
-    with pytest.warns(SceneWarning, match="look like degrees") as caught:
-        thread = threading.Thread(target=Pose.from_yaw, args=((0, 0, 0), 90))
+    thread = threading.Thread(target=Pose.from_yaw, args=((0, 0, 0), 90))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
         thread.start()
         thread.join()
+    assert [one.category for one in caught] == [SceneWarning]
     assert Path(caught[0].filename).is_relative_to(Path(scene2hap.__file__).parent)
