@@ -45,7 +45,7 @@ _SUFFIXES_OF = {
 }
 READABLE = " or ".join(", ".join(_SUFFIXES_OF).rsplit(", ", 1))
 """The formats of sound files, for messages."""
-SUFFIXES = frozenset(suffix for suffixes in _SUFFIXES_OF.values() for suffix in suffixes)
+SUFFIXES: frozenset[str] = frozenset(suffix for suffixes in _SUFFIXES_OF.values() for suffix in suffixes)
 """Suffixes of sound files, by which they are found in folders. A file that is given by itself may have any suffix."""
 
 MAX_CHANNELS = 64
