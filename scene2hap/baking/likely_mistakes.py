@@ -14,7 +14,6 @@ from scene2hap.bundle.checking import vain_corrections
 from scene2hap.common.counted import counted, first_of
 from scene2hap.common.warning import warn_of
 from scene2hap.haptics import ObjectHaptics, is_unknown
-from scene2hap.llm.backends.chat import BackendWarning
 from scene2hap.scene.grouping.empty_names import names_a_place
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -44,17 +43,6 @@ def warn_of_scene(scene: SceneSnapshot, objects: Mapping[str, ObjectHaptics]) ->
             f"{scene.name!r} is one object, {scene.objects[0].name!r}, which is unknown; nothing will be felt.{merges} "
             "If it is one object, give it a name that says what it is, or let a model look at it (llm)."
         )
-
-
-def warn_of_lost_answers(errors: Mapping[str, str]) -> None:
-    """Warn of questions without an answer, by object id, state or material, "" for the scene. Warns: BackendWarning."""
-    (what, problem), *_ = errors.items()
-    warn_of(
-        f"{counted(len(errors), 'question')} to the model got no answer. The first, about {what or 'the scene'}: "
-        f"{problem} What is not known is left out. Bake again, which repeats only these questions if the backend has a "
-        "cache, or give the values by override. on_report= receives all errors.",
-        BackendWarning,
-    )
 
 
 def warn_of_vain_corrections(

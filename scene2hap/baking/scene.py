@@ -23,7 +23,6 @@ from scene2hap.baking.corrections import (
 from scene2hap.baking.fingerprint import converter_settings
 from scene2hap.baking.likely_mistakes import (
     all_have_fingerprints,
-    warn_of_lost_answers,
     warn_of_scene,
     warn_of_vain_corrections,
     warn_of_weak_loops,
@@ -291,8 +290,8 @@ def _give_report(report: InferenceReport, on_report: OnReport | None) -> None:
     """Pass the report to the caller. Warns of its errors if nobody takes it: an object without an answer is silent."""
     if on_report is not None:
         on_report(report)
-    elif report.errors:
-        warn_of_lost_answers(report.errors)
+    else:
+        report.warn_of_errors()
 
 
 def _require_callable(**callbacks: object) -> None:

@@ -6,7 +6,17 @@ from typing import Any
 
 import pytest
 
-from scene2hap import BackendWarning, Box, LLMReply, SceneObject, SceneSnapshot, SceneWarning, bake, rebake
+from scene2hap import (
+    BackendWarning,
+    Box,
+    LLMReply,
+    SceneObject,
+    SceneSnapshot,
+    SceneWarning,
+    bake,
+    infer_haptics,
+    rebake,
+)
 from scene2hap.llm.chain.report import InferenceReport
 from scripted_backend import SCENE, Scripted
 
@@ -33,7 +43,11 @@ def baked_again() -> None:
     rebake(bake(SCENE, {"llm": Scripted()}), BROKEN, objects=["cup", "table"])
 
 
-@pytest.mark.parametrize("make", [baked, baked_again])
+def inferred() -> None:
+    infer_haptics(SCENE, BROKEN["llm"])
+
+
+@pytest.mark.parametrize("make", [baked, baked_again, inferred])
 def test_a_lost_answer_is_a_warning_unless_the_report_is_taken(make: Callable[[], None]) -> None:
     with pytest.warns(BackendWarning, match="1 question to the model got no answer.*'cup'") as caught:
         make()
