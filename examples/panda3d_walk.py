@@ -178,9 +178,9 @@ def play(arguments: argparse.Namespace, has_window: bool) -> None:
         def feel(task: Any) -> int:  # once per frame, before it is drawn
             nonlocal told
             touches = walker.touches(next(player), link)
-            frame = link.update(touches)
             if isinstance(sink, WavSink):
-                sink.pull_s(clock.dt)
+                sink.pull_s(clock.dt)  # before the update, since frames in a window are of unequal length
+            frame = link.update(touches)
             line = "; ".join(f"{one.hand} hand on {one.object_id}" for one in touches) or "nothing touched"
             if line != told:
                 told = line

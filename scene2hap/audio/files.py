@@ -45,7 +45,7 @@ _SUFFIXES_OF = {
 }
 READABLE = " or ".join(", ".join(_SUFFIXES_OF).rsplit(", ", 1))
 """The formats of sound files, for messages."""
-SUFFIXES = frozenset(suffix for suffixes in _SUFFIXES_OF.values() for suffix in suffixes)
+SUFFIXES: frozenset[str] = frozenset(suffix for suffixes in _SUFFIXES_OF.values() for suffix in suffixes)
 """Suffixes of sound files, by which they are found in folders. A file that is given by itself may have any suffix."""
 
 MAX_CHANNELS = 64
@@ -182,7 +182,9 @@ def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
     except (soundfile.SoundFileError, TypeError) as cause:  # TypeError: a headerless file, for which a rate is needed
         if is_lfs_pointer(path):
             raise AudioError(f"{path} {LFS_ADVICE}.") from cause
-        raise AudioError(f"{path}: not a readable sound ({reason_of(cause)}). Use {READABLE}.") from cause
+        # The text of libsndfile's error repeats the path, as bytes.
+        reason = str(getattr(cause, "error_string", "") or reason_of(cause)).rstrip(".")
+        raise AudioError(f"{path}: not a readable sound ({reason}). Use {READABLE}.") from cause
 
 
 def require_finite(path: Path, channels: Samples, start: int = 0) -> None:

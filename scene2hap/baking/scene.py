@@ -69,7 +69,8 @@ def bake(
     config : a BakeConfig, its settings, or the path of a TOML or JSON file with a table `bake`.
     user_prompt : instruction to the model, with priority over all others.
     progress : called with stage, step, number done and total number.
-    on_report : receives the report of the inference: calls, skipped calls, tokens, errors of single objects.
+    on_report : receives the report of the inference: calls, skipped calls, tokens, errors of single objects. Without
+        it a BackendWarning names the first error.
     overrides : a person's corrections by id, for example of an earlier bundle; they replace inferred values.
     earlier : a bundle of this scene; the states and loops of objects that `overrides` lock are taken from it, and loops
         that a person edited by hand, unless they would now be made otherwise (with a warning).
@@ -107,8 +108,7 @@ async def abake(
     config = BakeConfig.parse(config)
     overrides = overrides_of_scene(overrides or {}, scene)
     inference = await infer_corrected(scene, config.llm, config, overrides, user_prompt=user_prompt, progress=progress)
-    if on_report is not None:
-        on_report(inference.report)
+    _give_report(inference.report, on_report)
     return await bake_inferred(scene, inference.scene_category, inference.objects, overrides, config, progress, earlier)
 
 
@@ -261,8 +261,7 @@ async def arebake(
         scene_category=bundle.scene_category,
         before=bundle.objects,
     )
-    if on_report is not None:
-        on_report(inference.report)
+    _give_report(inference.report, on_report)
     inferred = dict(bundle.objects)
     for key, haptics in inference.objects.items():
         inferred[key] = haptics if key in whole else replace_vibration(bundle.objects[key], haptics)
@@ -285,6 +284,14 @@ async def arebake(
     return replace(
         bundle, objects=baked, loops=sounds.loops, choices=sounds.choices, made_with=made_with, inferred=before
     )
+
+
+def _give_report(report: InferenceReport, on_report: OnReport | None) -> None:
+    """Pass the report to the caller. Warns of its errors if nobody takes it: an object without an answer is silent."""
+    if on_report is not None:
+        on_report(report)
+    else:
+        report.warn_of_errors()
 
 
 def _require_callable(**callbacks: object) -> None:

@@ -16,7 +16,7 @@ from scene2hap.common.checks import did_you_mean, shown
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import BundleError
 from scene2hap.haptics import ObjectHaptics, SourceState, unmet_needs
-from scene2hap.materials import Material
+from scene2hap.materials import Material, find_row
 from scene2hap.scene.surface import plate_sizes
 
 
@@ -44,9 +44,9 @@ def require_plausible(bundle: BundleContents, folder: Path) -> None:
     """Check sizes against the measured ones, corrected states, and that the scene can provide each needed contact.
 
     Raises: BundleError: a size that this object's plate cannot have.
-    Warns: BundleWarning: an object that does not vibrate has loops; a state needs a contact that no object in the scene
-    can provide; a tactile loop that is silent, too loud or with ends that do not meet; a correction of a state that its
-    object does not have.
+    Warns: BundleWarning: an object that does not vibrate has loops; an object has the name of one material and the
+    constants of another; a state needs a contact that no object in the scene can provide; a tactile loop that is
+    silent, too loud or with ends that do not meet; a correction of a state that its object does not have.
     """
     objects, scene = bundle.objects, bundle.snapshot
     categories = {item.id: "" for item in scene.objects} | {key: said.object_category for key, said in objects.items()}
@@ -65,11 +65,24 @@ def require_plausible(bundle: BundleContents, folder: Path) -> None:
                 f"Remove them: `scene2hap edit {folder} rebake`.",
                 BundleWarning,
             )
+        if haptics.material is not None and _are_two_materials(haptics.material_category, haptics.material.name):
+            warn_of(
+                f"{folder / 'objects.json'}: {object_id!r} has the material_category {haptics.material_category!r}, "
+                f"but the constants of {haptics.material.name!r}, which are played. Write both: "
+                f"`scene2hap edit {folder} material {object_id} NAME`.",
+                BundleWarning,
+            )
         for doubt in unmet_needs(object_id, haptics.states, categories):
             warn_of(f"{object_id!r}: {doubt}.", BundleWarning)
     warn_of_edited_loops(bundle, folder)
     for doubt in vain_corrections(objects, bundle.overrides):
         warn_of(f"{folder / 'overrides.json'}: {doubt}", BundleWarning)
+
+
+def _are_two_materials(one: str, other: str) -> bool:
+    """Whether the table has both names, for different materials. Words of a model that it lacks may mean anything."""
+    rows = find_row(one), find_row(other)
+    return rows[0] is not None and rows[1] is not None and rows[0] != rows[1]
 
 
 def warn_of_edited_loops(bundle: BundleContents, folder: Path) -> None:

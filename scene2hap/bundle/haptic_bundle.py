@@ -53,6 +53,9 @@ def _locked(object_id: str, change: str) -> BundleError:
 _OF_SOURCES = ("clip", "gain_db", "intensity", "pitch_hz", "start_up_s", "wind_down_s", "muted")
 """Corrections that only a vibrating object takes."""
 
+_TO_VIBRATE = "First vibrates=True and rebake, or `scene2hap edit BUNDLE vibrate ID`."
+_TO_BEGIN_SILENT = "To begin silent, mute it: muted=True, or `scene2hap edit BUNDLE mute ID`."
+
 
 @clear_calls
 @dataclass(frozen=True)
@@ -214,8 +217,10 @@ class HapticBundle(BundleContents):
         known = [one.name for one in haptics.states] if haptics is not None else []
         for state in states:
             if state not in known:
-                has = f"it has {', '.join(map(repr, known))}" if known else "it does not vibrate and has none"
-                raise BundleError(f"{object_id!r} has no state {checks.shown(state)}; {has}.")
+                has, step = "it does not vibrate and has none", _TO_VIBRATE
+                if known:
+                    has, step = f"it has {', '.join(map(repr, known))}", _TO_BEGIN_SILENT if state == "off" else ""
+                raise BundleError(f"{object_id!r} has no state {checks.shown(state)}; {has}. {step}".rstrip())
 
     def _require_thickness(self, object_id: str, thickness_m: float) -> None:
         """Raise a BundleError if the object's plate cannot have a thickness."""

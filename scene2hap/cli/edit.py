@@ -174,7 +174,10 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     if arguments.verb == "diff":
         before, other = HapticBundle.load(arguments.bundle), HapticBundle.load(arguments.other)
         rows = [tuple(row) for row in differences(before, other)]
-        console.table("differences", ("object", "what", str(arguments.bundle), str(arguments.other)), rows)
+        if rows:
+            console.table("differences", ("object", "what", str(arguments.bundle), str(arguments.other)), rows)
+        else:
+            console.say("no differences")
         return {"differences": rows}
     return _watch(arguments, console) if getattr(arguments, "watch", False) else _edit(arguments, console)
 

@@ -21,6 +21,7 @@ from typing import Any
 
 from scene2hap.audio.haptic_loop import HapticLoop, Sensation
 from scene2hap.bundle import HapticBundle
+from scene2hap.cli.bake import add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
 from scene2hap.errors import BundleError
 from scene2hap.haptics import SourceState
@@ -39,6 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--model", action="append", metavar="KIND", help="propagation model of the felt map; may be repeated"
     )
+    add_scene_arguments(parser)
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
@@ -67,13 +69,12 @@ def _page(arguments: argparse.Namespace, bundle: HapticBundle, console: Console)
     from scene2hap.report.page import assemble
     from scene2hap.report.serve import ReportServer
     from scene2hap.scene.capture import capture_images
-    from scene2hap.scene.load import load_scene
 
     pictures = None
     if arguments.output:
         require_target(arguments.output)  # before pictures are rendered
     if arguments.scene:
-        pictures = capture_images(load_scene(arguments.scene), config={"size_px": _PICTURE_PX})
+        pictures = capture_images(read_scene(arguments), config={"size_px": _PICTURE_PX})
     models, account = tuple(arguments.model or MODELS), read_account(arguments.bundle)
     outcome: dict[str, Any] = {"bundle": arguments.bundle}
     if arguments.output:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from scene2hap.audio import files
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.files import read_clip
 from scene2hap.clips import ahap, haptic_format
@@ -15,7 +16,7 @@ from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.clips.haptic_format import read_haptic
 from scene2hap.clips.synthesis import RATE_HZ, synthesize
 from scene2hap.common import checks
-from scene2hap.errors import ClipError
+from scene2hap.errors import AudioError, ClipError
 
 SUFFIXES = (haptic_format.SUFFIX, ahap.SUFFIX)
 """Suffixes of haptic clips; files with other suffixes are read as sounds."""
@@ -47,9 +48,14 @@ def read_any_clip(path: str | os.PathLike[str]) -> AudioClip:
 
     Raises: AudioError, ClipError: the file cannot be used.
     """
-    if not is_haptic_clip(path):
+    if is_haptic_clip(path):
+        return as_vibration(read_haptic_clip(path), Path(path).stem)
+    try:
         return read_clip(Path(path))
-    return as_vibration(read_haptic_clip(path), Path(path).stem)
+    except AudioError as cause:
+        if Path(path).suffix.lower() in files.SUFFIXES or not Path(path).is_file():
+            raise
+        raise AudioError(f"{str(cause).rstrip('.')}, or a haptic clip: {', '.join(SUFFIXES)}.") from cause
 
 
 def as_vibration(clip: HapticClip, title: str = "haptic clip") -> AudioClip:

@@ -22,7 +22,8 @@ from scene2hap.bundle.account import read_account
 from scene2hap.bundle.arguments import given_bundle
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
-from scene2hap.common.counted import first_of
+from scene2hap.common.counted import counted, first_of
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import ConfigError, UnknownMaterial
 from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
 from scene2hap.materials import Material, lookup
@@ -83,7 +84,7 @@ def report_document(
     hides: dict[str, Direction | None] = {**walls(scene, bundle.loops), **dict.fromkeys(whole)}
     scene_paths = ScenePaths(bundle)
     felt = felt_map(bundle, models, scene_paths=scene_paths, shells=whole, most_points=most_points)
-    looks = {} if pictures is None else {item.id: item for item in pictures.objects}
+    looks = {} if pictures is None else _looks(pictures, scene)
     loops = LoopPairs()
     objects = [_object(bundle, item, looks.get(item.id), meshes, loops, hides) for item in scene.objects]
     made = bundle.made_with
@@ -363,6 +364,19 @@ def _meshes(scene: SceneSnapshot, numbers: Mapping[str, int]) -> list[dict[str, 
         }
         for digest in numbers
     ]
+
+
+def _looks(pictures: SceneSnapshot, scene: SceneSnapshot) -> dict[str, SceneObject]:
+    """Return the objects that have pictures, by id. Warns: SceneWarning: some of the scene's objects are not there."""
+    looks = {item.id: item for item in pictures.objects}
+    missing = [item.id for item in scene.objects if item.id not in looks]
+    if missing:
+        warn_of(
+            f"{len(missing)} of {counted(len(scene.objects), 'object')} are not in the scene of the pictures, and are "
+            f"shown without: {first_of([repr(one) for one in missing], 3)}. Read that scene as it was baked: the same "
+            "file, --group and --names."
+        )
+    return looks
 
 
 def _pictures(item: SceneObject) -> list[str]:

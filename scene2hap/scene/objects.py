@@ -13,6 +13,7 @@ from pydantic import InstanceOf
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
+from scene2hap.common.counted import counted
 from scene2hap.common.printable import writable
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
@@ -272,13 +273,15 @@ class SceneData:
     contacts: tuple[Contact, ...] | None = None
 
 
-def unknown_object(object_id: object, known: Mapping[str, object]) -> str:
-    """Return the sentence for an id that a scene does not have."""
+def unknown_object(
+    object_id: object, known: Mapping[str, object], listed: str = "`scene2hap inspect` lists its {}."
+) -> str:
+    """Return the sentence for an id that a scene does not have; `listed` says where its objects are listed."""
     if not isinstance(object_id, str):
         how = ": give its .id" if isinstance(object_id, SceneObject) else ", of one object"
         some = next(iter(known), "")
         return f"an object's id is {checks.described(object_id)}; it must be a text{how}, such as {some!r}."
-    hint = checks.did_you_mean(object_id, known, f"`inspect` lists the {len(known)} objects.")
+    hint = checks.did_you_mean(object_id, known, listed.format(counted(len(known), "object")))
     return f"the scene has no object {checks.represented(object_id)}. {hint}"
 
 

@@ -226,7 +226,7 @@ class HapticSession:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
         self._impacts.follow(moved, felt, self._user, stamp)
         self._output.feed(frame)
-        if (problem := self._output.problem) is not None:
+        if not self._output.is_listened_to and (problem := self._output.problem) is not None:
             self._mistakes.in_sink(problem)
         if felt:
             self._mistakes.in_sources(self._sources.ids)
@@ -485,10 +485,12 @@ class HapticSession:
         For maps, and for a game that plans ahead. The gains are from the field in use, with the volume of source, user
         and hand, also in a pause; no touch is counted. Call it on the thread that calls `update`.
         Returns: (n_touches, n_sources, n_bands) float64 [-], in the order of `source_ids`, 0 below -140 dB.
+        Warns: SceneWarning: one of the first points is more than 5 cm off the box around its object, once.
         Raises: UnknownObject: an object is not in the scene; SessionError: an unknown hand, or another type.
         """
         given = given_touches(touches)
         touches_by_hand(given, self.hands, self._state)
+        self._mistakes.in_points(given)
         if self._switching.follow_contacts(self._playback.now):
             self._hand_frames.levels_changed()
         return self._hand_frames.would_feel(given)

@@ -3,8 +3,8 @@
 - Loops that were made for another actuator than the session's, corrections that wait for a `rebake`.
 - First poses whose quaternions begin with w: (1, 0, 0, 0) is upright with w first, and upside down with w last.
 - Contacts of an engine whose normals point from `b` to `a`: nothing would land.
-- Touches and strikes far from the box around their object. Almost always the point is in other units, in the object's
-  own frame, or from another frame of the game.
+- Touches, strikes and points of `would_feel` far from the box around their object. Almost always the point is in other
+  units, in the object's own frame, or from another frame of the game.
 - Added objects that will not be felt, a scene in which nothing vibrates, a user's profile for other hands.
 - A sink that is never started, or has no device.
 """
@@ -80,7 +80,7 @@ class LikelyMistakes:
         self._n_silent_named = 0
         self._n_unplayed = 0
         self._has_moved = self._is_silence_named = self._knows_normals = self._is_strike_named = False
-        self._is_sink_named = False
+        self._is_sink_named = self._is_point_named = False
         self.n_touches_off: int = 0
 
     def in_moves(self, moved: Mapping[str, Pose]) -> None:
@@ -136,6 +136,15 @@ class LikelyMistakes:
                     if touch.hand not in self._hands_named:
                         self._hands_named.add(touch.hand)
                         self._warn_of_touch(touch, off_m)
+
+    def in_points(self, touches: Sequence[Touch]) -> None:
+        """Warn about the first point of `would_feel` that is too far off. Warns: SceneWarning."""
+        for touch in () if self._is_point_named else touches[:LOOKED_AT]:
+            off_m = self._off_m(touch.object_id, touch.point_m)
+            if off_m > FAR_M:
+                self._is_point_named = True
+                warn_of(f"would_feel is given {_far(touch.object_id, touch.point_m, off_m)} Others are not named.")
+                return
 
     def in_output(self) -> None:
         """Warn once of a sink that was never started. Call it for each update with touches until then.

@@ -15,6 +15,7 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, PrivateAttr, T
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes
+from scene2hap.common.counted import counted
 from scene2hap.common.csv_tables import csv_reader, with_point
 from scene2hap.common.json_texts import parse_json
 from scene2hap.common.text_files import read_small_text
@@ -130,6 +131,12 @@ class TouchTrack(BaseModel):
     def name(self) -> str:
         """The file that the track was read from, for messages."""
         return self._name
+
+    def __repr__(self) -> str:
+        return f"TouchTrack({counted(len(self.steps), 'step')}, {self.duration_s:g} s)"
+
+    def __str__(self) -> str:
+        return repr(self)
 
     def __eq__(self, other: object) -> bool:
         """Compare the contents: tracks of two files may be equal."""

@@ -611,3 +611,8 @@ def test_reset_takes_back_the_corrections_of_one_object(
     assert list(found.overrides) == ["oak table"]
     assert main(["edit", str(folder), "undo", "-q"]) == 0
     assert "fan" not in HapticBundle.load(folder).loops
+
+
+def test_equal_bundles_are_said_to_be_equal(fan: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["edit", str(fan), "diff", str(fan)]) == 0
+    assert capsys.readouterr().out == "no differences\n"

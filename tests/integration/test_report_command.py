@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from rooms import ROOMS
 from scene2hap import HapticBundle, bake
 from scene2hap.cli import main
 from scene2hap.demo import kitchen_path
@@ -89,6 +90,22 @@ def test_page_shows_the_account_of_the_bake(tmp_path: Path, capsys: pytest.Captu
     rows = dict(json.loads(page.read_text())["account"]["rows"])
     assert rows["calls"].startswith(f"{sum(told['calls'].values())}: ")
     assert rows["answered from a cache"] == str(told["kept"])
+
+
+def test_pictures_come_from_the_scene_as_it_was_baked(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A file in centimetres, without a unit of its own that is right, and grouped otherwise than by default."""
+    file, folder = ROOMS["cubes"].in_units(0.01).write(tmp_path), tmp_path / "room.bundle"
+    page = tmp_path / "page.json"
+    assert main(["bake", str(file), "-o", str(folder), "--unit-m", "0.01", "--group", "leaf", "-q"]) == 0
+    capsys.readouterr()
+    shown = ["report", str(folder), "-o", str(page), "--scene", str(file)]
+    assert main([*shown, "--unit-m", "0.01", "--group", "leaf"]) == 0
+    assert capsys.readouterr().err == ""
+    assert all(one["pictures"] for one in json.loads(page.read_text())["objects"])
+    assert main([*shown, "--unit-m", "0.01", "--group", "0"]) == 0
+    said = capsys.readouterr().err
+    assert f"of {len(ROOMS['cubes'].things)} objects are not in the scene of the pictures" in said
+    assert "--group" in said
 
 
 def test_dry_run_with_the_lexicon_costs_nothing(capsys: pytest.CaptureFixture[str]) -> None:

@@ -18,6 +18,7 @@ from scene2hap import (
     SceneSnapshot,
     TeeSink,
     Touch,
+    TouchTrack,
     UdpSink,
     WavSink,
 )
@@ -107,3 +108,9 @@ def test_reasons_and_digests_do_not_hide_the_other_fields_of_a_bundle() -> None:
         assert "vibrates=" in repr(haptics)
     for states in bundle.loops.values():
         assert all("fingerprint" not in repr(loop) for loop in states.values())
+
+
+def test_a_long_track_is_shown_by_its_length() -> None:
+    steps = [{"time_s": 0.01 * number, "hand": "left", "touch": "table"} for number in range(1000)]
+    track = TouchTrack(duration_s=10.0, steps=steps)
+    assert repr(track) == str(track) == "TouchTrack(1,000 steps, 10 s)"

@@ -2,6 +2,7 @@
 
 import asyncio
 import inspect
+import threading
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -17,6 +18,7 @@ from scene2hap import (
     Pose,
     SceneObject,
     SceneSnapshot,
+    SceneWarning,
     abake,
     bake,
     rebake,
@@ -66,3 +68,14 @@ def test_corrections_warn_at_the_callers_line(bundle: HapticBundle) -> None:
     lost = {"lamp": Override(gain_db=3.0)}
     assert places_of(lambda: bake(SCENE, overrides=lost)) == {("BundleWarning", True, True)}
     assert places_of(lambda: asyncio.run(abake(SCENE, overrides=lost))) == {("BundleWarning", True, True)}
+
+
+def test_a_warning_on_a_thread_of_the_library_points_at_the_line_that_warns() -> None:
+    """There is no line of a caller, and one of the standard library says nothing."""
+    thread = threading.Thread(target=Pose.from_yaw, args=((0, 0, 0), 90))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        thread.start()
+        thread.join()
+    assert [one.category for one in caught] == [SceneWarning]
+    assert Path(caught[0].filename).is_relative_to(Path(scene2hap.__file__).parent)

@@ -123,11 +123,13 @@ def infer_haptics(
     Where an event loop runs, use `infer_scene`.
 
     Parameters: scene : a snapshot or the path of a scene file; backend : a backend, its kind, or a mapping with a kind.
-    Raises: as `infer_scene`.
+    Raises: as `infer_scene`. Warns: BackendWarning: a question got no answer; the first error is named.
     """
     built = cast("LLMBackend", BACKENDS.build(backend))  # `infer_scene` checks it
     running = infer_scene(given_scene(scene), built, user_prompt=user_prompt, config=config)
-    return run_waiting(running, "infer_scene(...)").objects
+    inference = run_waiting(running, "infer_scene(...)")
+    inference.report.warn_of_errors()
+    return inference.objects
 
 
 class _Chain:

@@ -5,8 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import Any
 
+from scene2hap.common.counted import counted
+from scene2hap.common.warning import warn_of
+from scene2hap.llm.backends.chat import BackendWarning
 from scene2hap.llm.protocol import Component, LLMReply
 from scene2hap.llm.wrappers.prices import PriceList
 
@@ -57,6 +61,17 @@ class InferenceReport:
         costs = [prices.cost_usd(model, used, tier) for (model, tier), used in self.billed.items()]
         known = [cost for cost in costs if cost is not None]
         return None if self.unmetered or len(known) < len(costs) else sum(known)
+
+    def warn_of_errors(self) -> None:
+        """Warn of questions without an answer, for callers who do not get the report. Warns: BackendWarning."""
+        for what, problem in islice(self.errors.items(), 1):
+            warn_of(
+                f"{counted(len(self.errors), 'question')} to the model got no answer. The first, about "
+                f"{what or 'the scene'}: {problem} What is not known is left out. Ask again, which repeats only these "
+                "questions if the backend has a cache, or give the values by override. The report has all errors: "
+                "on_report= of bake, or that of infer_scene.",
+                BackendWarning,
+            )
 
     def as_json(self) -> Mapping[str, Any]:
         """Return the report as JSON values."""

@@ -55,7 +55,8 @@ class RepairBackend(Wrapper):
                 usable = replace(reply, text=text)
             elif left == 0:
                 self._given_up += 1
-                message = f"{describe(request)}: still wrong after {self._repairs} repairs: {fault.reason}."
+                message = f"{describe(request)}: still wrong after {self._repairs} repairs: {fault.reason}. "
+                message += "Choose a model that keeps to the form, or raise `repairs`."
                 raise unusable(replace(reply, usage=dict(usage)), message, reply.text)
             left -= 1
             self._n_repairs += 1

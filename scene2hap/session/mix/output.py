@@ -17,7 +17,7 @@ from scene2hap.common.printable import quoted
 from scene2hap.common.warning import warn_of
 from scene2hap.devices import SINKS
 from scene2hap.devices.exclusive_use import claim_sink, give_back_sink
-from scene2hap.devices.protocol import ActuatorSink, Fill, SinkEvent, SinkFormat, has_clock
+from scene2hap.devices.protocol import ActuatorSink, EventCallback, Fill, SinkEvent, SinkFormat, has_clock
 from scene2hap.errors import ConfigError, DeviceError, SessionError
 from scene2hap.render.safety import FADE_OUT_S, SafetyLayer, SafetyStats
 from scene2hap.session.config import SessionConfig
@@ -54,8 +54,7 @@ class Output:
         self._show: Callable[[HapticFrame], None] | None = getattr(built, "show", None)
         self._shown: HapticFrame | None = None
         self._events: dict[str, SinkEvent] = {}  # the last one of each sink
-        if getattr(built, "on_event", self) is None:
-            built.on_event = self._note  # type: ignore[union-attr]  # looked up by name, see ActuatorSink
+        self._on_event: EventCallback | None = None
         self.is_unused: bool = built is not None
         """Whether a sink is set that was never started."""
 
@@ -81,11 +80,16 @@ class Output:
 
     @property
     def problem(self) -> str | None:
-        """Why a started sink, or one of several, plays nothing. None if all play or the game gets their events."""
-        if self._safety is None or not self._events:
+        """Why a started sink, or one of several, plays nothing. None if all play, or the game took `on_event` since."""
+        if self._safety is None or not self._events or not self._is_listening(self.sink):
             return None
         events = list(self._events.values())  # the threads of the sinks add more
         return next((event.message for event in events if event.kind in _PROBLEMS), None)
+
+    @property
+    def is_listened_to(self) -> bool:
+        """Whether the game gets the events of the sink itself."""
+        return self._on_event is not None
 
     @property
     def is_late(self) -> bool:
@@ -93,8 +97,25 @@ class Output:
         safety = self._safety
         return safety is not None and safety.is_late
 
+    def _listen(self, sink: ActuatorSink) -> None:
+        """Note the events of a sink until `_listen_no_more`, and pass them on to its own callback."""
+        self._events.clear()
+        self._on_event = getattr(sink, "on_event", None)
+        if hasattr(sink, "on_event"):
+            sink.on_event = self._note
+
+    def _listen_no_more(self, sink: ActuatorSink) -> None:
+        """Give the sink its own callback back: another session may play on it next."""
+        if self._is_listening(sink):
+            sink.on_event = self._on_event  # type: ignore[attr-defined]  # looked up by name, see ActuatorSink
+
+    def _is_listening(self, sink: ActuatorSink | None) -> bool:
+        return getattr(sink, "on_event", None) == self._note
+
     def _note(self, event: SinkEvent) -> None:
         self._events[event.sink] = event
+        if self._on_event is not None:
+            self._on_event(event)
 
     def feed(self, frame: HapticFrame) -> None:
         """Reset the watchdog, and pass the gains to the sink."""
@@ -144,7 +165,7 @@ class Output:
             on_trip=self._show_silence,
         )
         claim_sink(self.sink, self)
-        self._events.clear()
+        self._listen(self.sink)
         try:
             self.sink.open(SinkFormat(rate, tuple(hands)))
             self.sink.start(safety.guard(fill))
@@ -191,6 +212,7 @@ class Output:
             finally:
                 end()
         finally:
+            self._listen_no_more(sink)
             give_back_sink(sink, self)
 
     @contextlib.contextmanager

@@ -94,6 +94,12 @@ def test_llama_cpp_without_vision_is_not_retried() -> None:
     assert not caught.value.retryable
 
 
+@pytest.mark.parametrize("message", ["llava is not a multimodal model", "Model does not support images."])
+def test_a_refusal_of_pictures_says_how_to_bake_without(message: str) -> None:
+    with serving(*[refused(400, message)] * 3) as server, pytest.raises(BackendUnavailable, match="--no-pictures"):
+        ask(local(server), request(images=(PNG,)))
+
+
 def test_llama_cpp_that_still_loads_is_retried() -> None:
     script = refused(503, {"code": 503, "message": "Loading model", "type": "unavailable_error"})
     with serving(script) as server, pytest.raises(BackendUnavailable, match="Loading model") as caught:

@@ -11,7 +11,7 @@ import pytest
 import soundfile
 from numpy.typing import NDArray
 
-from scene2hap import ActuatorProfile, HapticBundle
+from scene2hap import ActuatorProfile, HapticBundle, materials
 from scene2hap.audio.spreading import SpreadLimits
 from scene2hap.bundle import MadeWith
 from scene2hap.bundle.checking import BundleWarning
@@ -36,6 +36,20 @@ def edit(folder: Path, object_id: str, **fields: Any) -> None:
 def test_object_that_was_marked_as_silent_but_has_loops_brings_a_warning(folder: Path) -> None:
     edit(folder, "phone", vibrates=False)
     with pytest.warns(BundleWarning, match="'phone' does not vibrate, but it has loops, which still play.*rebake"):
+        HapticBundle.load(folder)
+
+
+def test_a_material_that_was_renamed_without_its_constants_brings_a_warning(folder: Path) -> None:
+    row = json.loads((folder / "objects.json").read_text())["table"]
+    assert row["material"]["name"] != "rubber"
+    edit(folder, "table", material_category="rubber")
+    with pytest.warns(BundleWarning, match=r"'table' .* 'rubber', .* constants of 'oak'.* material table NAME"):
+        HapticBundle.load(folder)
+    edit(folder, "table", material="rubber")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert HapticBundle.load(folder).objects["table"].material == materials.lookup("rubber")
+        edit(folder, "table", material_category="a word that the table does not have")
         HapticBundle.load(folder)
 
 

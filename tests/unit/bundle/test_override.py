@@ -157,6 +157,15 @@ def test_a_level_of_silence_is_refused_and_says_how_to_mute(bundle: HapticBundle
     assert bundle.override("phone", gain_db=-120).gain_db("phone") == -120
 
 
+def test_a_state_that_is_not_there_is_refused_with_the_next_step(bundle: HapticBundle) -> None:
+    with pytest.raises(BundleError, match=r"'phone' has no state 'off'; it has 'ringing', 'alarm'.*muted=True.* mute"):
+        bundle.override("phone", state="off")
+    with pytest.raises(BundleError, match=r"'phone' has no state 'on'; it has 'ringing', 'alarm'\.$"):
+        bundle.override("phone", pitch_hz={"on": 200})
+    with pytest.raises(BundleError, match=r"'table' has no state 'on'; it does not vibrate.*vibrates=True.*vibrate ID"):
+        bundle.override("table", state="on")
+
+
 def test_a_sound_that_is_too_short_is_refused_with_its_file_and_object(bundle: HapticBundle, tmp_path: Path) -> None:
     click = AudioClip(np.ones(RATE // 50, np.float32) / 2, RATE, Credit("click", "me", "mine"))
     write_wav(tmp_path / "click20ms.wav", click.samples, RATE)

@@ -14,7 +14,7 @@ from others import SHARED, needed
 from scene2hap.clips.haptic_clip import ClipWarning, Curve, HapticClip, Transient
 from scene2hap.clips.haptic_format import compose_haptic, read_haptic
 from scene2hap.clips.reading import read_any_clip, read_haptic_clip
-from scene2hap.errors import ClipError
+from scene2hap.errors import AudioError, ClipError
 
 SAMPLES = SHARED / "formats" / "haptic"
 REFUSED = {
@@ -175,3 +175,12 @@ def test_metadata_becomes_the_credit(tmp_path: Path) -> None:
     assert compose_haptic(read_haptic(path))["metadata"]["tags"] == ["a"]
     with pytest.raises(ClipError, match="metadata.author is 3; it must be a text"):
         read_haptic(put(tmp_path, found | {"metadata": {"author": 3}}))
+
+
+@pytest.mark.parametrize("name", ["fan.hjif", "fan.json", "fan.f32"])
+def test_a_file_that_is_neither_clip_nor_sound_is_refused_with_both_lists(tmp_path: Path, name: str) -> None:
+    (tmp_path / name).write_text('{"version": "1"}')
+    with pytest.raises(
+        AudioError, match=r"\(Format not recognised\)\. Use WAV, .* or Opus, or a haptic clip: \.haptic, \.ahap"
+    ):
+        read_any_clip(tmp_path / name)

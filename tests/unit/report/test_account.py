@@ -96,7 +96,7 @@ def test_skipped_calls_state_a_reason() -> None:
     def failing(request: object, answer: dict[str, object]) -> dict[str, object]:
         return {"nothing": 1} if answer["object_category"] == "cup" else answer
 
-    plain = bake(SCENE, {"llm": Scripted(object_analyzer=failing)})
+    plain = bake(SCENE, {"llm": Scripted(object_analyzer=failing)}, on_report=lambda report: None)
     assert plain.objects["cup"].provenance["object_category"].startswith("error")
     rows = report_document(plain.override("phone", muted=True, locked=True), most_points=50)["left_out"]
     reasons = {row["why"].partition(":")[0]: row["objects"] for row in rows}

@@ -319,10 +319,32 @@ def test_a_missing_device_is_named_although_another_one_plays() -> None:
 
 def test_a_game_that_listens_to_its_sink_gets_no_warning() -> None:
     sink, events = Deviceless(), list[SinkEvent]()
-    sink.on_event = events.append
+    listener = sink.on_event = events.append
     with HapticSession(*table_with_two_phones(), CONFIG, sink=sink) as s:
         s.update(touches=[ON_TABLE])
+        assert "no card" in s.explain("left").text
     assert [one.kind for one in events] == ["unavailable"]
+    assert sink.on_event == listener
+
+
+def test_a_game_that_begins_to_listen_later_is_not_told_of_the_past() -> None:
+    sink, events = Deviceless(), list[SinkEvent]()
+    with HapticSession(*table_with_two_phones(), CONFIG, sink=sink) as s:
+        sink.on_event = events.append  # from now on the session knows of no event, such as that the device came
+        s.update(touches=[ON_TABLE])
+        assert "no card" not in s.explain("left").text
+    assert sink.on_event == events.append
+
+
+def test_a_session_that_takes_a_sink_over_gets_its_events() -> None:
+    sink = Deviceless()
+    old = HapticSession(*table_with_two_phones(), CONFIG, sink=sink)
+    new = HapticSession(*table_with_two_phones(), CONFIG, sink=sink)
+    old.start()
+    old.stop()
+    new.start()
+    assert "no card" in new.explain("left").text
+    new.close()
 
 
 class Journal(MemorySink):

@@ -114,3 +114,16 @@ def test_a_strike_more_than_5_cm_off_the_box_warns_once(session: HapticSession, 
         assert caught[0].category is SceneWarning
         assert caught[0].filename == __file__
         assert str(caught[0].message).startswith(f"a strike of 'table' at (0.3, {height_m:g}, 0.1), ")
+
+
+def test_a_point_of_would_feel_is_named_once_and_not_counted(session: HapticSession) -> None:
+    near, far = Touch("left", "table", (0.3, 0.72, 0.1)), Touch("left", "table", (300.0, 720.0, 100.0))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        session.would_feel([near])
+        assert not caught
+        session.would_feel([near, far])
+        session.would_feel([far])
+    assert [one.filename for one in caught] == [__file__]
+    assert str(caught[0].message).startswith("would_feel is given 'table' at (300, 720, 100), 785 m off the box")
+    assert session.stats.touches_off_surface == 0
