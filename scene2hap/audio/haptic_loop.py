@@ -26,7 +26,7 @@ class Sensation:
     Parameters: level_db : sensation level over the threshold of touch [dB]; asked_level_db : the planned level, which
     the actuator or the head-room may not allow [dB]; target_hz : the frequency that is felt most, None if unknown [Hz];
     own_hz : the frequency of that component in the sound, None if the converter does not tell [Hz]; rough_hz : the
-    component that is felt as roughness, None without one, or if its pitch moves [Hz].
+    component that is felt as roughness, None without one [Hz].
 
     Of a melody, the note that is farthest over the threshold of touch is felt most. Nothing vibrates at the middle of
     its notes, around which the converter keeps a band. Only if the notes are beeps, which share one felt frequency,
@@ -57,8 +57,7 @@ class Sensation:
         """
         if not getattr(converter, "follows_target", False) or context.own_hz is None:
             return cls(level_db, asked_level_db)
-        is_rough = context.band_q is None and getattr(converter, "keeps_roughness", False)
-        rough_hz = context.rough_hz if is_rough else None
+        rough_hz = context.rough_hz if getattr(converter, "keeps_roughness", False) else None
         return cls(level_db, asked_level_db, context.own_hz, context.target_hz or context.own_hz, rough_hz)
 
     def felt_at(self, most_felt_hz: float) -> Sensation:

@@ -85,6 +85,7 @@ class LevelFollower(Stage):
         self._n_made = 0
         step_s, self._n_ahead = (LIVE_STEP_S, 0) if is_live else (STEP_S, _AHEAD)
         self._step = max(1, round(step_s * sample_rate_hz))
+        self._sound = np.empty(0)  # whose bed is held back
         self._waiting = np.empty(0)
         self._heard = [StepEnergies(self._step) for _ in range(2 if rendered is None else 3)]
         window = hann(2 * _LIVE_STEPS)[:_LIVE_STEPS] if is_live else hann(_STEPS)
@@ -102,7 +103,7 @@ class LevelFollower(Stage):
     def rest(self) -> Signal:
         """Return the last samples, as if silence followed."""
         left = self._bed.rest()
-        parts = [self._followed(np.zeros(len(left)), left)] if left.size else []
+        parts = [self._followed(np.empty(0), left)] if left.size else []
         n_waiting, n_after = len(self._waiting), (self._n_ahead + 2) * self._step
         silence = np.zeros(n_after)
         parts.append(self._followed(silence, silence)[:n_waiting])
@@ -110,6 +111,8 @@ class LevelFollower(Stage):
 
     def _followed(self, x: Signal, y: Signal) -> Signal:
         self._waiting = np.concatenate([self._waiting, y]) if self._waiting.size else y
+        sound = np.concatenate([self._sound, x]) if self._sound.size else x
+        x, self._sound = sound[: len(y)], sound[len(y) :]
         parts = (x, y) if self._rendered is None else (x, y, self._rendered.run(y))
         energies = [of.next(part) for of, part in zip(self._heard, parts, strict=True)]
         self._energies = np.concatenate([self._energies, energies], axis=1)

@@ -51,7 +51,8 @@ def test_roughness_leaves_the_slow_envelope_unchanged() -> None:
 def test_auto_equals_adaptive_without_roughness_and_onsets() -> None:
     context = ConversionContext(own_hz=150.0, target_hz=170.0)
     stream = CONVERTERS.build("adaptive").stream(RATE, context)
-    expected = stream.process(SosStage(heard_sections(RATE)).run(ENGINE.astype(np.float64)))
+    heard = stream.process(SosStage(heard_sections(RATE)).run(ENGINE.astype(np.float64)))
+    expected = np.concatenate([heard, stream.finish()])
     before_end = slice(0, -RATE // 10)  # the level follower mends the end, where the sound breaks off
     np.testing.assert_array_equal(felt(context)[before_end], expected[RATE:][before_end])
 
