@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
+from scene2hap.audio.felt_loop import Plan, SourceClip, felt_loop, plan_scene
 from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.spectra.heard import heard_sections
@@ -37,6 +37,18 @@ def test_roughness_is_modulation_at_the_rate_of_the_low_component() -> None:
     assert line(rough, 150.0) == pytest.approx(line(plain, 150.0), rel=0.02)
     for side in (110.0, 190.0):
         assert line(rough, side) - line(plain, side) == pytest.approx(0.25 * line(plain, 150.0), rel=0.2)
+
+
+@pytest.mark.parametrize("target_hz", [80.0, 98.0])
+@pytest.mark.parametrize("phase", [0.0, 0.5, 1.0, 1.5])
+def test_side_bands_of_a_roughness_do_not_exceed_the_tone(phase: float, target_hz: float) -> None:
+    """The third harmonic of a compressor lies where a side band is; together they were felt more than the tone."""
+    parts = (0.5, 49.0, 0.0), (0.15, 98.0, 0.0), (0.15, 147.0, phase * np.pi)
+    x = sum((a * np.sin(2 * np.pi * hz * T + angle) for a, hz, angle in parts), np.zeros(len(T)))
+    clip = AudioClip(x.astype(np.float32), RATE)
+    context = ConversionContext(own_hz=98.0, target_hz=target_hz, rough_hz=49.0, band_db=-9.0)
+    loop = felt_loop(clip, CONVERTERS.build("auto"), Plan(context, 15.0))
+    assert loop.frequency_tactile_hz == pytest.approx(target_hz, abs=1.0)
 
 
 def test_roughness_leaves_the_slow_envelope_unchanged() -> None:
