@@ -18,10 +18,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
 import scipy
 
 from scene2hap.audio.anchor.whole_sound import BAND_Q, CARRIER_RANGE_HZ, HIGHEST_PEAK_DB, best_carrier_hz, is_beep
-from scene2hap.audio.levels import drive_db, sensation_level_db
+from scene2hap.audio.levels import drive_db, over_threshold_db, sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.spectra.heard import heard_sections
 from scene2hap.audio.tactile.adaptive import Adaptive, band_around
@@ -91,9 +92,16 @@ class Auto(Adaptive):
 
 
 def _bed_q(q: float, context: ConversionContext) -> float:
-    """Return the Q of the bed's band, at least q. It leaves little of the harmonics where side bands of the roughness
-    will be: both add up, and one would be felt more than the bed."""
+    """Return the Q of the bed's band, at least q.
+
+    Harmonics of the sound lie where the side bands of the roughness will be, and both add up. Where touch is more
+    sensitive to the upper side band than to the bed, the band leaves little of them: else it would be felt more.
+    """
     if context.own_hz is None or context.rough_hz is None:
+        return q
+    felt_hz = context.target_hz or context.own_hz
+    bed_db, side_db = over_threshold_db(np.array([felt_hz, felt_hz + context.rough_hz]), context.actuator)
+    if side_db <= bed_db:
         return q
     ratio = 1.0 + context.rough_hz / context.own_hz
     return max(q, min(_SIDE_Q / (ratio - 1.0 / ratio), _MOST_BED_Q))

@@ -51,6 +51,17 @@ def test_side_bands_of_a_roughness_do_not_exceed_the_tone(phase: float, target_h
     assert loop.frequency_tactile_hz == pytest.approx(target_hz, abs=1.0)
 
 
+def test_a_bed_that_is_felt_best_keeps_the_harmonics_beside_it() -> None:
+    """The side bands of a mower that is felt at 250 Hz cannot exceed it, and its harmonics are its rhythm."""
+    harmonic = (0.5 * np.sin(2 * np.pi * 80 * T)).astype(np.float32)
+    heights = []
+    for rough_hz in (40.0, None):
+        context = ConversionContext(own_hz=40.0, target_hz=250.0, rough_hz=rough_hz, band_db=-20.0)
+        stream = CONVERTERS.build("auto").stream(RATE, context)
+        heights.append(line(np.concatenate([stream.process(harmonic), stream.finish()])[RATE:], 290.0))
+    assert heights[0] == pytest.approx(heights[1], rel=0.15)
+
+
 def test_roughness_leaves_the_slow_envelope_unchanged() -> None:
     rough, plain = (felt(ConversionContext(own_hz=150.0, rough_hz=hz)) for hz in (40.0, None))
 
