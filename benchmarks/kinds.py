@@ -118,7 +118,9 @@ def take(bundle: HapticBundle, name: str, config: BakeConfig, seed: int) -> Audi
     stays, anchor = (anchor_of(x.samples, x.sample_rate_hz, level_db, config.actuator) for x in (loop.source, clip))
     assert stays is not None
     assert anchor is not None
-    moved = 1.0 if felt.target_hz is None else felt.target_hz / stays.felt_hz  # a fixed filter moves nothing
+    moved = 1.0  # a fixed filter moves nothing
+    if felt.own_hz is not None and felt.target_hz is not None:
+        moved = (stays.frequency_hz + felt.target_hz - felt.own_hz) / stays.felt_hz
     context = ConversionContext(
         config.actuator,
         state.intensity,

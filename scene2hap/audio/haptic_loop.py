@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, overload
 
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.run_curve import RunCurve
-from scene2hap.audio.threshold import NOTICED_DB
+from scene2hap.audio.threshold import NOTICED_DB, TACTILE_RANGE_HZ
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import AudioError
@@ -24,9 +24,13 @@ class Sensation:
     """How a tactile loop is felt by a hand on the source.
 
     Parameters: level_db : sensation level over the threshold of touch [dB]; asked_level_db : the planned level, which
-    the actuator or the head-room may not allow [dB]; own_hz : the component that identifies the source, None without
-    one [Hz]; target_hz : the frequency at which that component is felt [Hz]; rough_hz : the component that is felt as
-    roughness, None without one [Hz].
+    the actuator or the head-room may not allow [dB]; target_hz : the frequency that is felt most, None if unknown [Hz];
+    own_hz : the frequency of that component in the sound, None if the converter does not tell [Hz]; rough_hz : the
+    component that is felt as roughness, None without one [Hz].
+
+    Of a melody, the note that is farthest over the threshold of touch is felt most. Nothing vibrates at the middle of
+    its notes, around which the converter keeps a band. Only if the notes are beeps, which share one felt frequency,
+    `own_hz` is their middle.
     """
 
     level_db: float
@@ -46,12 +50,25 @@ class Sensation:
     def of(
         cls, level_db: float, asked_level_db: float, converter: TactileConverter, context: ConversionContext
     ) -> Sensation:
-        """Return the sensation of a conversion. The context's frequencies are left out where the converter ignores
-        them: a low-pass may have removed the component that stands for the source."""
-        if not getattr(converter, "follows_target", False):
+        """Return the sensation of a conversion, at the planned frequency; `felt_at` gives the one that is felt most.
+
+        The context's frequencies are left out where the converter ignores them: a low-pass may have removed the
+        component that stands for the source.
+        """
+        if not getattr(converter, "follows_target", False) or context.own_hz is None:
             return cls(level_db, asked_level_db)
         rough_hz = context.rough_hz if getattr(converter, "keeps_roughness", False) else None
         return cls(level_db, asked_level_db, context.own_hz, context.target_hz or context.own_hz, rough_hz)
+
+    def felt_at(self, most_felt_hz: float) -> Sensation:
+        """Return the sensation with the frequency that is felt most, and with the frequency of this component in the
+        sound: all of a band is moved by the same number of hertz."""
+        own_hz = self.own_hz
+        if own_hz is not None and self.target_hz is not None:
+            moved_hz = most_felt_hz - (self.target_hz - own_hz)
+            # Below the band that was moved there is a burst, which has no frequency in the sound.
+            own_hz = moved_hz if moved_hz >= TACTILE_RANGE_HZ[0] else own_hz
+        return replace(self, own_hz=own_hz, target_hz=most_felt_hz)
 
     def __str__(self) -> str:
         weaker = f" ({self.asked_level_db:.1f} dB planned)" if self.asked_level_db - self.level_db >= NOTICED_DB else ""
@@ -88,7 +105,7 @@ class HapticLoop:
 
     `frequency_raw_hz` is the peak of the audible loop's spectrum, which the paper uses in its attenuation law;
     `frequency_tactile_hz` is the peak of the tactile one, after conversion, that is farthest over the threshold of
-    touch.
+    touch, and of which `felt` tells.
     `source` is the sound before it was cut, None if unknown or for a person's own clip, which the bundle stores;
     `fingerprint` has a digest of each input of the loops, empty if unknown; `felt` is None if unknown.
     `start_up` and `wind_down` are the machine's start and stop in the recording, None if it has none.
@@ -118,6 +135,9 @@ class HapticLoop:
             )
         for name in ("frequency_raw_hz", "frequency_tactile_hz"):
             object.__setattr__(self, name, checks.number(name, getattr(self, name), "Hz", above=0.0, error=AudioError))
+        if self.felt is not None and self.felt.target_hz != self.frequency_tactile_hz:
+            # Planned frequencies, and those of earlier bundles, are the middle of a melody's notes.
+            object.__setattr__(self, "felt", self.felt.felt_at(self.frequency_tactile_hz))
 
     @overload
     def plot(self, *, title: str | None = None, figure: None = None) -> Figure: ...

@@ -70,22 +70,23 @@ def warn_of_weak_loops(sounds: Sounds, overrides: Mapping[str, Override]) -> Non
             if loop.felt is None:
                 continue
             doubt = ""
-            if override.pitch_of(state) is not None:
-                doubt = _pitch_doubt(name, loop, loop.felt)
+            if (pitch_hz := override.pitch_of(state)) is not None:
+                doubt = _pitch_doubt(name, pitch_hz, loop.felt)
             if not doubt and is_own:
                 doubt = level_doubt(name, loop.felt.level_db, loop.felt.asked_level_db)
             if doubt:
                 warn_of(doubt, LevelWarning)
 
 
-def _pitch_doubt(name: str, loop: HapticLoop, felt: Sensation) -> str:
+def _pitch_doubt(name: str, asked_hz: float, felt: Sensation) -> str:
     """Return the sentence that says how a loop misses its pitch; empty if a hand would notice no difference."""
     missing_db = felt.asked_level_db - felt.level_db
-    asked_hz, reached_hz = felt.target_hz, loop.frequency_tactile_hz
-    is_elsewhere = asked_hz is not None and abs(math.log(reached_hz / asked_hz)) > math.log1p(FREQUENCY_WEBER)
-    misses = [f"most at {reached_hz:.0f} Hz"] if is_elsewhere else []
+    if felt.own_hz is None or felt.target_hz is None:  # the converter moves nothing
+        return ""
+    is_elsewhere = abs(math.log(felt.target_hz / asked_hz)) > math.log1p(FREQUENCY_WEBER)
+    misses = [f"most at {felt.target_hz:.0f} Hz"] if is_elsewhere else []
     misses += [f"{missing_db:.0f} dB weaker than planned"] if missing_db > NOTICED_DB else []
-    if asked_hz is None or not misses:
+    if not misses:
         return ""
     return (
         f"{name} has its pitch at {asked_hz:.0f} Hz, but is felt {' and '.join(misses)}. Give a pitch at which the "

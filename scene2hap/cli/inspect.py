@@ -4,7 +4,8 @@ The first table has the dominant surface of each object: its length, width and t
 lowest point above that of the scene. "measured" is "well", or the reason to look at a size again.
 
 The table of a bundle has the inferred values. "sound Hz" is the strongest frequency of the sound, "vibration Hz" the
-frequency at which the vibration is felt most: "80 from 98" was moved from 98 Hz, "rough 49" adds roughness at 49 Hz.
+frequency at which the vibration is felt most, of a melody one of its notes: "80 from 98" was moved from 98 Hz, "rough
+49" adds roughness at 49 Hz.
 "edited" means that a person has changed the WAV file: frequency and level are those before. "felt dB" is the level over
 the threshold of touch at the object itself. "17 of 22" is 17 dB where 22 dB were planned: the actuator or full scale
 allows no more. "starts, stops s" are the times of start and stop.

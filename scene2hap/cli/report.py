@@ -15,11 +15,10 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from scene2hap.audio.haptic_loop import HapticLoop, Sensation
+from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.bake import add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
@@ -93,13 +92,6 @@ def _page(arguments: argparse.Namespace, bundle: HapticBundle, console: Console)
     return outcome
 
 
-def _felt(loop: HapticLoop, felt: Sensation) -> str:
-    """Describe a sensation, at the frequency that `inspect` shows: that of a melody is not the mean of its notes, which
-    identifies the source."""
-    most_hz = loop.frequency_tactile_hz
-    return str(replace(felt, own_hz=felt.own_hz if felt.is_moved else most_hz, target_hz=most_hz))
-
-
 def _account_of_state(state: SourceState, loop: HapticLoop | None) -> str:
     parts = [f"intensity {state.intensity:g}"]
     if state.needs_contact:
@@ -138,7 +130,7 @@ def _account(bundle: HapticBundle, object_id: str) -> dict[str, Any]:
             )
             for state in haptics.states
         ),
-        *((f"felt {state}", _felt(loop, loop.felt), "") for state, loop in loops.items() if loop.felt is not None),
+        *((f"felt {state}", str(loop.felt), "") for state, loop in loops.items() if loop.felt is not None),
         ("confidence", f"{haptics.confidence:.2f}", ""),
     ]
     if gain_db := bundle.gain_db(object_id):

@@ -10,6 +10,7 @@ import base64
 import hashlib
 import os
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -232,13 +233,7 @@ def _state(bundle: HapticBundle, object_id: str, state: SourceState, loops: Loop
     loop = bundle.loops.get(object_id, {}).get(state.name)
     felt = None
     if loop is not None and loop.felt is not None:
-        of = loop.felt
-        felt = {
-            "level_db": of.level_db,
-            "asked_level_db": of.asked_level_db,
-            "own_hz": of.own_hz if of.is_moved else loop.frequency_raw_hz,
-            "target_hz": loop.frequency_tactile_hz,
-        }
+        felt = {**asdict(loop.felt), "raw_hz": loop.frequency_raw_hz}
     return {
         "name": state.name,
         "intensity": state.intensity,

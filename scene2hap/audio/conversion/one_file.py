@@ -167,6 +167,8 @@ def convert(
                 sensation = None
                 if level_db is not None and asked_db is not None:
                     sensation = Sensation.of(level_db, asked_db, built, context)
+                    if (most_hz := after.most_felt_hz(context.actuator)) is not None:
+                        sensation = sensation.felt_at(most_hz)
                 draw_conversion(title, source, beside, (before, after), context.actuator, picture_beside, sensation)
     made = Conversion(
         source,

@@ -71,11 +71,16 @@ class Adaptive:
         """Start a conversion at a sample rate."""
         checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=1000.0, error=ConfigError)
         if context.own_hz is not None:
-            return StageStream(*self.band(sample_rate_hz, context, context.own_hz))
+            return StageStream(*self.band(sample_rate_hz, context, context.own_hz, in_step=True))
         return StageStream(_Tracking(self, sample_rate_hz, context))
 
-    def band(self, sample_rate_hz: float, context: ConversionContext, own_hz: float) -> list[Stage]:
-        """Return the band-passes for a source with this own frequency, and the frequency shift if one is needed."""
+    def band(
+        self, sample_rate_hz: float, context: ConversionContext, own_hz: float, *, in_step: bool = False
+    ) -> list[Stage]:
+        """Return the band-passes for a source with this own frequency, and the frequency shift if one is needed.
+
+        A shift that is `in_step` with its sound has a latency, which no live stream has time for.
+        """
         own_hz = min(own_hz, _HIGHEST * sample_rate_hz)
         target_hz = min(self._target_hz(context, own_hz), _HIGHEST * sample_rate_hz)
         q = min(self.q, context.band_q or self.q)
@@ -85,7 +90,8 @@ class Adaptive:
             half_hz = _SHIFTED * (target_hz if target_hz < own_hz / 2.0 else own_hz)
             # The mirror image of a wide band is further away, in proportion to its middle.
             high_hz = max(own_hz + half_hz, 0.5 * own_hz * (1.0 / q + (q**-2 + 4.0) ** 0.5) if context.band_q else 0.0)
-            stages.append(ShiftStage(own_hz - half_hz, high_hz, target_hz - own_hz, sample_rate_hz))
+            band_hz = own_hz - half_hz, high_hz
+            stages.append(ShiftStage(*band_hz, target_hz - own_hz, sample_rate_hz, in_step=in_step))
         return stages
 
     def _target_hz(self, context: ConversionContext, own_hz: float) -> float:

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from scene2hap.audio.distinctness import LEVEL_JND_DB
-from scene2hap.audio.tactile.following import faded
+from scene2hap.audio.tactile.following import faded, rising_over
 from scene2hap.audio.tactile.onsets import QUIETEST, RISE, STEP_S
 from scene2hap.audio.tactile.stages import Signal, Stage
 from scene2hap.audio.tactile.step_energies import StepEnergies
@@ -46,7 +46,7 @@ class EmphasizedAttacks(Stage):
         # From `BEFORE` steps before the next one on. The beginning of a sound is no attack: its mean is not known.
         self._sound, self._made = np.full(BEFORE, np.inf), np.full(BEFORE, np.inf)
         self._waiting = np.empty(0)
-        self._rising = np.arange(step) / step
+        self._rising = rising_over(step)
         self._gains = np.ones(LASTS + 1)  # at the beginnings of the next steps
         self._since = APART  # steps since the last attack
 

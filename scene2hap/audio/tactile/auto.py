@@ -18,10 +18,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
 import scipy
 
 from scene2hap.audio.anchor.whole_sound import BAND_Q, CARRIER_RANGE_HZ, HIGHEST_PEAK_DB, best_carrier_hz, is_beep
-from scene2hap.audio.levels import drive_db, sensation_level_db
+from scene2hap.audio.levels import drive_db, over_threshold_db, sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.spectra.heard import heard_sections
 from scene2hap.audio.tactile.adaptive import Adaptive, band_around
@@ -36,6 +37,11 @@ from scene2hap.audio.tactile.stages import Chain, Scaled, SosStage, Stage, Stage
 _ROOM = 0.5
 """Gain if the bed has a given level relative to the whole sound. It leaves room for bursts, and for the first harmonic
 of a clipped sound, which may exceed the peak of the sound. The level of files and loops is set afterwards."""
+
+_SIDE_Q = 4.0
+"""Quality times detuning at which both band-passes of the bed together leave -25 dB."""
+_MOST_BED_Q = 5.0
+"""Largest Q of a bed: a narrower one would ring for 40 ms at 80 Hz."""
 
 _LIVE_DB = 0.0
 """Level of the bed of a live stream relative to the whole sound [dB]."""
@@ -57,7 +63,7 @@ class Auto(Adaptive):
             )
             stages: list[Stage] = [SosStage(above), *EnvelopeCarrier().stream(sample_rate_hz, context).stages]
         else:
-            stages = [*super().stream(sample_rate_hz, context).stages]
+            stages = [*Adaptive(_bed_q(self.q, context), self.shift_octaves).stream(sample_rate_hz, context).stages]
         bed: Stage = Chain(stages)
         is_known = context.own_hz is not None  # the whole sound was analysed, so this is no live stream
         bed_db = context.band_db if is_known else _LIVE_DB
@@ -83,6 +89,22 @@ class Auto(Adaptive):
         if bed_db is None:
             return StageStream(*parts)
         return StageStream(*parts, Scaled(_ROOM if rendered is None else _ROOM * 10 ** (-HEADROOM_DB / 20)))
+
+
+def _bed_q(q: float, context: ConversionContext) -> float:
+    """Return the Q of the bed's band, at least q.
+
+    Harmonics of the sound lie where the side bands of the roughness will be, and both add up. Where touch is more
+    sensitive to the upper side band than to the bed, the band leaves little of them: else it would be felt more.
+    """
+    if context.own_hz is None or context.rough_hz is None:
+        return q
+    felt_hz = context.target_hz or context.own_hz
+    bed_db, side_db = over_threshold_db(np.array([felt_hz, felt_hz + context.rough_hz]), context.actuator)
+    if side_db <= bed_db:
+        return q
+    ratio = 1.0 + context.rough_hz / context.own_hz
+    return max(q, min(_SIDE_Q / (ratio - 1.0 / ratio), _MOST_BED_Q))
 
 
 def _beep_hz(context: ConversionContext) -> float | None:

@@ -85,6 +85,7 @@ class LevelFollower(Stage):
         self._n_made = 0
         step_s, self._n_ahead = (LIVE_STEP_S, 0) if is_live else (STEP_S, _AHEAD)
         self._step = max(1, round(step_s * sample_rate_hz))
+        self._sound = np.empty(0)  # whose bed is held back
         self._waiting = np.empty(0)
         self._heard = [StepEnergies(self._step) for _ in range(2 if rendered is None else 3)]
         window = hann(2 * _LIVE_STEPS)[:_LIVE_STEPS] if is_live else hann(_STEPS)
@@ -92,7 +93,7 @@ class LevelFollower(Stage):
         # Of sound, bed and rendered bed, by steps, from before the start.
         self._energies = np.zeros((len(self._heard), len(window) - self._n_ahead))
         self._means = np.zeros(2)
-        self._rising = np.arange(self._step) / self._step
+        self._rising = rising_over(self._step)
         self._gains = np.empty((2, 0))  # of bed and sine, at the beginning of the next step
 
     def run(self, x: Signal) -> Signal:
@@ -102,7 +103,7 @@ class LevelFollower(Stage):
     def rest(self) -> Signal:
         """Return the last samples, as if silence followed."""
         left = self._bed.rest()
-        parts = [self._followed(np.zeros(len(left)), left)] if left.size else []
+        parts = [self._followed(np.empty(0), left)] if left.size else []
         n_waiting, n_after = len(self._waiting), (self._n_ahead + 2) * self._step
         silence = np.zeros(n_after)
         parts.append(self._followed(silence, silence)[:n_waiting])
@@ -110,6 +111,8 @@ class LevelFollower(Stage):
 
     def _followed(self, x: Signal, y: Signal) -> Signal:
         self._waiting = np.concatenate([self._waiting, y]) if self._waiting.size else y
+        sound = np.concatenate([self._sound, x]) if self._sound.size else x
+        x, self._sound = sound[: len(y)], sound[len(y) :]
         parts = (x, y) if self._rendered is None else (x, y, self._rendered.run(y))
         energies = [of.next(part) for of, part in zip(self._heard, parts, strict=True)]
         self._energies = np.concatenate([self._energies, energies], axis=1)
@@ -182,6 +185,15 @@ def _lifts(levels: Signal, usual: Signal | float) -> tuple[Signal, Signal]:
 def _ratio_db(sound: Signal, bed: Signal) -> Signal:
     """Return the level of the bed relative to its sound [dB], from their energies (n,)."""
     return np.asarray(10.0 * np.log10((bed + NOTHING) / (sound + NOTHING)))
+
+
+def rising_over(step: int) -> Signal:
+    """Return the share of the later gain in each sample of a step (step,), a raised cosine [-].
+
+    A straight ramp has corners, which click where actuators are heard and not felt: a tone that rises from -20 to
+    -6 dB in 5 ms has a peak of -50 dB above 1.2 kHz, and one of -75 dB by this ramp.
+    """
+    return np.asarray(0.5 - 0.5 * np.cos(np.pi / step * np.arange(step)))
 
 
 @compiled

@@ -233,8 +233,9 @@ def test_a_credit_in_broken_unicode_is_written(tmp_path: Path) -> None:
 
 def test_sensation_of_a_loop_round_trips(tmp_path: Path) -> None:
     _, bundle = table_with_two_phones()
-    felt = Sensation(14.0, 20.0, 98.0, 80.0)
-    loop = replace(bundle.loops["alarm"]["ringing"], felt=felt)
+    loop = bundle.loops["alarm"]["ringing"]
+    felt = Sensation(14.0, 20.0, 98.0, loop.frequency_tactile_hz)
+    loop = replace(loop, felt=felt)
     folder = replace(bundle, loops={**bundle.loops, "alarm": {"ringing": loop}}).save(tmp_path / "b")
     again = HapticBundle.load(folder)
     assert again.loops["alarm"]["ringing"].felt == felt
@@ -244,6 +245,19 @@ def test_sensation_of_a_loop_round_trips(tmp_path: Path) -> None:
     (folder / "loops.json").write_text(json.dumps(rows), encoding="utf-8")
     with pytest.raises(BundleError, match="level_db"):
         HapticBundle.load(folder)
+
+
+def test_a_melody_of_an_earlier_bundle_is_told_at_its_note(tmp_path: Path) -> None:
+    """Earlier versions stored the middle of the notes: 88 Hz, moved by 10 Hz."""
+    _, bundle = table_with_two_phones()
+    folder = bundle.save(tmp_path / "b")
+    rows = json.loads((folder / "loops.json").read_text(encoding="utf-8"))
+    note_hz = rows["alarm"]["ringing"]["frequency_tactile_hz"]
+    rows["alarm"]["ringing"]["felt"] = {"level_db": 14.0, "asked_level_db": 14.0, "own_hz": 88.0, "target_hz": 98.0}
+    (folder / "loops.json").write_text(json.dumps(rows), encoding="utf-8")
+    felt = HapticBundle.load(folder).loops["alarm"]["ringing"].felt
+    assert felt is not None
+    assert (felt.target_hz, felt.own_hz) == (note_hz, pytest.approx(note_hz - 10.0))
 
 
 def test_a_misspelt_field_is_named(folder: Path) -> None:

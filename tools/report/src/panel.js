@@ -134,14 +134,19 @@ export function makePanel({ element, report, felt, store, corrections, onFocus }
   function stateRows(state) {
     const hz = (value) => (value === null || value === undefined ? null : `${shownNumber(value)} Hz`);
     const level = (value) => (value === null || value === undefined ? null : `${value.toFixed(1)} dB`);
+    const touch = (felt) => {
+      if (!felt?.target_hz) return null;
+      const isMoved = felt.own_hz && Math.abs(felt.own_hz - felt.target_hz) >= 1;
+      return `${hz(felt.target_hz)}${isMoved ? `, moved from ${hz(felt.own_hz)}` : ""}${felt.rough_hz ? `, rough at ${hz(felt.rough_hz)}` : ""}`;
+    };
     return [
       ["intensity", shownNumber(state.intensity)],
       ["keywords", state.keywords],
       ["needs contact with", state.needs_contact],
       ["level at the source", level(state.felt?.level_db)],
       ["level wanted", level(state.felt?.asked_level_db)],
-      ["frequency of the sound", hz(state.felt?.own_hz)],
-      ["frequency of touch", hz(state.felt?.target_hz)],
+      ["frequency of the sound", hz(state.felt?.raw_hz)],
+      ["frequency of touch", touch(state.felt)],
     ].filter(([, value]) => value);
   }
 

@@ -13,7 +13,7 @@ from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.anchor.moving_pitch import growth_db, moving_pitch
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert, convert_clip
-from scene2hap.audio.felt_loop import SourceClip, plan_scene
+from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.adaptive import Adaptive
@@ -120,3 +120,34 @@ def test_growth_is_the_increase_of_the_level_range() -> None:
     assert growth_db(sound, band, 16.0) == pytest.approx(20 * np.log10(2.0), abs=0.01)
     assert growth_db(sound, sound, 16.0) == 0.0
     assert growth_db(sound[: RATE // 2], band[: RATE // 8], 0.5) == 0.0
+
+
+@pytest.mark.parametrize("neighbour_hz", [None, 85.0])
+def test_a_melody_is_told_at_a_note_that_vibrates_and_sounds(neighbour_hz: float | None) -> None:
+    """In an earlier version it was told at the middle of its notes, 88 Hz, where nothing vibrates."""
+    notes_hz = (66.0, 117.0)
+    hz = np.where(np.floor(T / 0.5) % 2 > 0, *notes_hz)
+    sound = (0.5 * np.sin(2 * np.pi * np.cumsum(hz) / RATE)).astype(np.float32)
+    sources = [SourceClip(AudioClip(sound, RATE), 0.3, "radio")]
+    if neighbour_hz is not None:
+        hum = (0.5 * np.sin(2 * np.pi * neighbour_hz * T)).astype(np.float32)
+        sources.append(SourceClip(AudioClip(hum, RATE), 0.3, "hum", keep=True))
+    plan = plan_scene(sources, Auto(), actuator_profile("flat"))[0]
+    assert plan.context.band_q is not None
+    loop = felt_loop(sources[0].clip, Auto(), plan)
+    assert loop.felt is not None
+    assert loop.felt.target_hz == loop.frequency_tactile_hz
+    assert loop.felt.is_moved == (neighbour_hz is not None)
+    assert min(abs(loop.felt.own_hz - note) for note in notes_hz) < 1.0
+    power = np.abs(np.fft.rfft(loop.tactile.samples)) ** 2
+    f = np.fft.rfftfreq(len(loop.tactile.samples), 1 / RATE)
+    assert power[np.abs(f - loop.felt.target_hz) < 2.0].max() > 0.1 * power.max()
+
+
+def test_a_melody_is_rough_at_a_note_and_not_at_the_middle_of_its_notes() -> None:
+    """On a narrow actuator, which plays none of its notes, a melody of 66 and 117 Hz was rough at 88 Hz."""
+    hz = np.where(np.floor(T / 0.5) % 2 > 0, 66.0, 117.0)
+    found = anchor_of(np.sin(2 * np.pi * np.cumsum(hz) / RATE), RATE, 20.0, actuator_profile("lra"))
+    assert found is not None
+    assert found.band_q is not None
+    assert min(abs(found.rough_hz - note) for note in (66.0, 117.0)) < 1.0

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.signal import hilbert
 
 from amplitudes import amplitude
 from scene2hap.audio.anchor import TrackedAnchor
@@ -131,3 +132,19 @@ def test_a_source_at_250_hz_gets_a_band_of_its_own() -> None:
     y = Adaptive().stream(RATE, ConversionContext(intensity=0.5)).process(tones(4, f250=0.2, f90=0.2, f700=0.2))
     assert amplitude(y, 90) < 0.1 * amplitude(y, 250)
     assert amplitude(y, 700) < 0.1 * amplitude(y, 250)
+
+
+@pytest.mark.parametrize("target_hz", [150.0, 225.0])
+def test_a_moved_band_is_in_step_with_its_sound(target_hz: float) -> None:
+    """The low-pass of the shift made it 10 ms later than a band that stays."""
+    t = np.arange(2 * RATE) / RATE
+    x = (0.4 * (1.0 + 0.8 * np.sin(2 * np.pi * 9.0 * t)) * np.sin(2 * np.pi * 180.0 * t)).astype(np.float32)
+    phases = []
+    for hz in (180.0, target_hz):
+        stream = Adaptive().stream(RATE, ConversionContext(own_hz=180.0, target_hz=hz))
+        y = np.concatenate([stream.process(x), stream.finish()])
+        assert len(y) == len(x)
+        envelope = np.abs(hilbert(y))[RATE // 2 : -RATE // 2]
+        phases.append(np.angle((envelope * np.exp(-2j * np.pi * 9.0 * t[: len(envelope)])).sum()))
+    late_s = -np.angle(np.exp(1j * (phases[1] - phases[0]))) / (2 * np.pi * 9.0)
+    assert abs(late_s) < 0.001
