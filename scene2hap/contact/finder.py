@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Container, Mapping, Sequence
 
-from scene2hap.contact.body import Body, apart_by, beside_by
+from scene2hap.contact.body import Body, apart_by
 from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.certificate import Certificate
 from scene2hap.contact.certificate_issuer import CertificateIssuer
@@ -159,12 +159,6 @@ class ContactFinder:
                     dirty.add(pair_of(x, y))
                     recheck.add(y)
                 continue
-            may_hang = y in unsupported and body.size_m > other.size_m
-            if old is None and beside_by(body, other, TOUCH_M) and not are_hinged(body, other):
-                # Neither can fall onto the other, and only unsupported bodies hang.
-                if may_hang:
-                    recheck.add(y)
-                continue
             if y in seen:
                 continue
             body_pair = self._pairs.made(body, other)
@@ -178,6 +172,7 @@ class ContactFinder:
             else:
                 self._pairs.add(body_pair)
                 dirty.add(pair_of(x, y))
+            may_hang = y in unsupported and body.size_m > other.size_m
             if may_hang or _may_rest(y, body_pair) or _may_rest(y, old):
                 recheck.add(y)
 
