@@ -147,14 +147,13 @@ class ContactFinder:
     def _pair_with_neighbours(self, body: Body, seen: set[str], dirty: set[Pair], recheck: set[str]) -> None:
         """Pair a body that moved with the bodies now near enough to touch it."""
         x, bodies, certificates, unsupported = body.id, self._bodies, self._issuer.of, self._unsupported
-        hinged = self._pairs.hinged
-        are_chained = hinged.are_chained if hinged.on else None
+        are_chained = self._pairs.hinged.are_chained
         body_pairs = self._pairs.of.setdefault(x, {})
         for y in self._broad_phase.neighbours[x]:
             if y in certificates:
                 continue
             other, old = bodies[y], body_pairs.get(y)
-            if are_chained is not None and are_chained(x, y) and not are_hinged(body, other):
+            if are_chained(x, y) and not are_hinged(body, other):
                 if self._pairs.drop(x, y) is not None:
                     dirty.add(pair_of(x, y))
                     recheck.add(y)
