@@ -106,20 +106,7 @@ def box_distance_m(x: Body, y: Body) -> float:
 
 def apart_by(x: Body, y: Body, margin_m: float) -> bool:
     """Return True if two AABBs are more than `margin_m` apart along some axis."""
-    up = x.up_axis
-    return beside_by(x, y, margin_m) or x.low[up] - y.high[up] > margin_m or y.low[up] - x.high[up] > margin_m
-
-
-def beside_by(x: Body, y: Body, margin_m: float) -> bool:
-    """Return True if two AABBs are more than `margin_m` apart along a level axis."""
-    v = x.v_axis
-    low, high, other_low, other_high = x.low, x.high, y.low, y.high
-    return (
-        low[0] - other_high[0] > margin_m
-        or other_low[0] - high[0] > margin_m
-        or low[v] - other_high[v] > margin_m
-        or other_low[v] - high[v] > margin_m
-    )
+    return box_distance_m(x, y) > margin_m
 
 
 def box_in_frame(guest: Body, host: Body) -> tuple[Triple, Triple]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Container, Mapping, Sequence
 
-from scene2hap.contact.body import Body, apart_by, beside_by
+from scene2hap.contact.body import Body, apart_by
 from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.certificate import Certificate
 from scene2hap.contact.certificate_issuer import CertificateIssuer
@@ -147,22 +147,15 @@ class ContactFinder:
     def _pair_with_neighbours(self, body: Body, seen: set[str], dirty: set[Pair], recheck: set[str]) -> None:
         """Pair a body that moved with the bodies now near enough to touch it."""
         x, bodies, certificates, unsupported = body.id, self._bodies, self._issuer.of, self._unsupported
-        hinged = self._pairs.hinged
-        are_chained = hinged.are_chained if hinged.on else None
+        are_chained = self._pairs.hinged.are_chained
         body_pairs = self._pairs.of.setdefault(x, {})
         for y in self._broad_phase.neighbours[x]:
             if y in certificates:
                 continue
             other, old = bodies[y], body_pairs.get(y)
-            if are_chained is not None and are_chained(x, y) and not are_hinged(body, other):
+            if are_chained(x, y) and not are_hinged(body, other):
                 if self._pairs.drop(x, y) is not None:
                     dirty.add(pair_of(x, y))
-                    recheck.add(y)
-                continue
-            may_hang = y in unsupported and body.size_m > other.size_m
-            if old is None and beside_by(body, other, TOUCH_M) and not are_hinged(body, other):
-                # Neither can fall onto the other, and only unsupported bodies hang.
-                if may_hang:
                     recheck.add(y)
                 continue
             if y in seen:
@@ -178,6 +171,7 @@ class ContactFinder:
             else:
                 self._pairs.add(body_pair)
                 dirty.add(pair_of(x, y))
+            may_hang = y in unsupported and body.size_m > other.size_m
             if may_hang or _may_rest(y, body_pair) or _may_rest(y, old):
                 recheck.add(y)
 

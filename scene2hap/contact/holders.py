@@ -35,18 +35,17 @@ class Attachment(NamedTuple):
     """One reason why two bodies are in contact.
 
     weight : 0..1; way_m : displacement that brings the pair's `a` to its `b` [m]; normal : from a to b; lies : True if
-    the body `faller` rests on the other with a level base face.
+    the pair's faller rests on the other with a level base face.
     """
 
     weight: float
     way_m: Triple
     normal: Triple | None
-    lies: bool
-    faller: str
+    lies: bool = False
 
 
 NO_WAY: Triple = (0.0, 0.0, 0.0)
-NO_ATTACHMENT = Attachment(0.0, NO_WAY, None, False, "")
+NO_ATTACHMENT = Attachment(0.0, NO_WAY, None)
 
 
 def priority(attachment: Attachment) -> tuple[float, bool]:
@@ -81,12 +80,12 @@ class Holders:
     def update(self, x: str) -> Collection[str]:
         """Find the holders of a body: by its hinge, else by support and, where that is below 1, by hanging.
 
-        Returns its present holders and those before.
+        Returns the holders whose attachment changed.
         """
         body = self._bodies[x]
         pivot_on = self._pairs.hinged.on.get(x)
         if pivot_on is not None:
-            return self._hold(x, {pivot_on: Attachment(1.0, NO_WAY, None, False, x)}, is_supported=True)
+            return self._hold(x, {pivot_on: Attachment(1.0, NO_WAY, None)}, is_supported=True)
         below, lies_on = self._below(body) if self._pairs.of[x] else ({}, ())
         attachments = {y: self._support(body, y, support, lies=y in lies_on) for y, support in below.items()}
         supported = max((attachment.weight for attachment in attachments.values()), default=0.0)
@@ -96,8 +95,8 @@ class Holders:
         return self._hold(x, attachments, is_supported=supported >= 1)
 
     def rest_alone(self, body: Body, on: str | None, fall_m: float) -> Collection[str]:
-        """Let a body lie on one support and touch nothing else, or touch nothing. Returns its present holders and those
-        before."""
+        """Let a body lie on one support and touch nothing else, or touch nothing. Returns the holders whose attachment
+        changed."""
         attachments = {} if on is None else {on: self._support(body, on, Support(1.0, fall_m), lies=True)}
         return self._hold(body.id, attachments, is_supported=on is not None)
 
@@ -114,13 +113,13 @@ class Holders:
             self.unsupported.discard(x)
         else:
             self.unsupported.add(x)
-        return before.keys() | attachments.keys()
+        return [y for y in before.keys() | attachments.keys() if before.get(y) != attachments.get(y)]
 
     def _support(self, body: Body, y: str, support: Support, *, lies: bool) -> Attachment:
         """Return the attachment by which y supports a body."""
         u, v, w = normal = support_normal(body, self._bodies[y])
         fall_m = support.fall_m
-        return Attachment(support.weight, (u * fall_m, v * fall_m, w * fall_m), normal, lies, body.id)
+        return Attachment(support.weight, (u * fall_m, v * fall_m, w * fall_m), normal, lies)
 
     def _below(self, body: Body) -> tuple[Mapping[str, Support], Collection[str]]:
         """Return the supports of a body, and the ids of those on which it rests with a level base face."""
@@ -140,7 +139,7 @@ class Holders:
         self._on_several.discard(body.id)
         if below is None:
             self._on_several.add(body.id)
-            each_m = {y: self._pairs.of[body.id][y].falls(body.id) for y in falls_m}
+            each_m = {y: self._pairs.of[body.id][y].falls for y in falls_m}
             below = supports({y: falls for y, falls in each_m.items() if falls is not None}, reach_m)
         return below, ()
 
@@ -154,7 +153,7 @@ class Holders:
         for y in sorted(onto, key=lambda y: (-bodies[y].high[up], y)):
             if body.low[up] - bodies[y].high[up] > least_m + TOUCH_M:
                 break
-            fall_m = found[y] = body_pairs[y].first_fall_m(body.id, by_each=body.id in self._on_several)
+            fall_m = found[y] = body_pairs[y].first_fall_m(by_each=body.id in self._on_several)
             least_m = min(least_m, fall_m)
         return {y: fall_m for y, fall_m in found.items() if fall_m < math.inf and fall_m <= least_m + TOUCH_M}
 
@@ -183,8 +182,7 @@ class Holders:
                 within_m = min(within_m, gap.distance_m + later_m)
         shares = hangs({y: gaps[y].distance_m for y in sorted(gaps)}, reach_m)
         return {
-            y: Attachment((1 - supported) * share, gaps[y].way_m, direction(gaps[y]), False, x)
-            for y, share in shares.items()
+            y: Attachment((1 - supported) * share, gaps[y].way_m, direction(gaps[y])) for y, share in shares.items()
         }
 
     def _is_clear(self, guest: Body, host: Body) -> bool:
@@ -216,17 +214,17 @@ class Holders:
             if gap is not None:
                 share = weight(gap.distance_m, TOUCH_M)
                 if share > attachment.weight:
-                    attachment, within_m = Attachment(share, NO_WAY, direction(gap), False, a), slack + gap.distance_m
+                    attachment, within_m = Attachment(share, NO_WAY, direction(gap)), slack + gap.distance_m
         if attachment.weight < 1:
             share, play_m = body_pair.enclosed
             if share > attachment.weight:
-                attachment, within_m = Attachment(share, NO_WAY, None, False, a), slack + play_m
+                attachment, within_m = Attachment(share, NO_WAY, None), slack + play_m
         if attachment.weight <= 0:
             return None
         rest = body_pair.rest if attachment.lies else None
         if rest is None:
             points = body_pair.points(attachment.way_m, within_m)
         else:
-            points = rest_points(*body_pair.falling(attachment.faller), rest, within_m)
+            points = rest_points(*body_pair.falling, rest, within_m)
         n = len(points)
         return Junction(points, (attachment.weight,) * n, (attachment.normal,) * n) if points else None

@@ -42,42 +42,35 @@ class BodyPair:
         if upper is not None and upper.id not in hinged:
             self.rest = rest_of(upper, b if upper is a else a, self.space)
             self.faller = None if self.rest is None else upper.id
-        self._falls: dict[str, Floats | None] = {}
-        self._first_falls_m: dict[str, float] = {}
+        self._first_fall_m: float | None = None
         self._points: dict[tuple[Triple, float], tuple[Triple, ...]] = {}
         # The distance up to which the gap was searched; -1 before the first search.
         self._gap_within_m = -1.0
         self._gap: Gap | None = None
 
-    @classmethod
-    def of(cls, x: Body, y: Body, hinged: Container[str]) -> BodyPair:
-        """Build the pair of two bodies, given in any order."""
-        return cls(x, y, hinged) if x.id < y.id else cls(y, x, hinged)
-
-    def first_fall_m(self, x: str, *, by_each: bool = False) -> float:
+    def first_fall_m(self, *, by_each: bool = False) -> float:
         """Return the least of the distances of `falls` [m], inf if there is none.
 
         Parameters: by_each : True if `falls` will be needed as well, which then is the only search.
         """
-        if x not in self._first_falls_m:
+        if self._first_fall_m is None:
             if by_each:
-                falls_m = self.falls(x)
-                self._first_falls_m[x] = math.inf if falls_m is None else float(falls_m.min())
+                self._first_fall_m = math.inf if self.falls is None else float(self.falls.min())
             else:
-                faller, _ = self.falling(x)
-                self._first_falls_m[x] = self._mesh_pair.first_drop_m(faller, fall_reach_m(faller.size_m), TOUCH_M)
-        return self._first_falls_m[x]
+                faller, _ = self.falling
+                self._first_fall_m = self._mesh_pair.first_drop_m(faller, fall_reach_m(faller.size_m), TOUCH_M)
+        return self._first_fall_m
 
-    def falls(self, x: str) -> Floats | None:
-        """Return the fall distance of each triangle of x onto the other body [m]; see `MeshPair.drops`."""
-        if x not in self._falls:
-            faller, _ = self.falling(x)
-            self._falls[x] = self._mesh_pair.drops(faller, fall_reach_m(faller.size_m), TOUCH_M)
-        return self._falls[x]
+    @lazy
+    def falls(self) -> Floats | None:
+        """The fall distance of each triangle of the faller onto the other body [m]; see `MeshPair.drops`."""
+        faller, _ = self.falling
+        return self._mesh_pair.drops(faller, fall_reach_m(faller.size_m), TOUCH_M)
 
-    def falling(self, x: str) -> tuple[Body, Body]:
-        """Return the body x and the other body."""
-        return (self.a, self.b) if x == self.a.id else (self.b, self.a)
+    @property
+    def falling(self) -> tuple[Body, Body]:
+        """The faller and the other body."""
+        return (self.a, self.b) if self.faller == self.a.id else (self.b, self.a)
 
     def gap(self, within_m: float) -> Gap | None:
         """Return the distance of the surfaces, None beyond `within_m`; see `MeshPair.gap`."""
@@ -116,7 +109,8 @@ class BodyPairs:
 
     def made(self, x: Body, y: Body) -> BodyPair:
         """Return the pair of two bodies at their present poses, without adding it."""
-        return BodyPair.of(x, y, self.hinged.on)
+        a, b = (x, y) if x.id < y.id else (y, x)
+        return BodyPair(a, b, self.hinged.on)
 
     def add(self, body_pair: BodyPair) -> BodyPair:
         """Add a pair, in the place of one of the same bodies. Returns the pair."""

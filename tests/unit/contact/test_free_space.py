@@ -8,13 +8,13 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from contact_scenes import box, boxes, chair, house, pairs, scene
-from scene2hap.contact import free_space, pair as narrow_phase
+from scene2hap.contact import free_space
 from scene2hap.contact.body import Body
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.ledge import FreeRegion, FreeRegions, VerticalAxis
 from scene2hap.contact.mesh_distance import MeshPair
-from scene2hap.contact.rule import fall_reach_m, hang_reach_m
+from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m
 from scene2hap.contact.stance import Stance
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
@@ -53,7 +53,7 @@ def test_free_space_agrees_with_triangles(
         guest = Body.of(replace(box("guest", size, (0, 0, 0)), pose=all_of_it.compose(place)), 1)
         reach_m = fall_reach_m(guest.size_m)
         meeting = MeshPair(guest, host)
-        told = narrow_phase.BodyPair(guest, host).falls("guest")
+        told = meeting.drops(guest, reach_m, TOUCH_M)
         known = FreeSpace(guest, host).region_below
         if known is not None and known.top_m is None:
             assert told is None

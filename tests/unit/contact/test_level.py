@@ -13,7 +13,8 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.geometry.polygons import clipped
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.level import rest_on, rest_points
-from scene2hap.contact.pair import BodyPair
+from scene2hap.contact.mesh_distance import MeshPair
+from scene2hap.contact.rule import TOUCH_M, fall_reach_m
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import Box, TriMesh
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -34,7 +35,7 @@ def test_a_block_falls_onto_another_as_its_triangles_do(
     lower = block("lower", (0.8, 0.2, 0.5), (0.0, 0.1, 0.0), turn_y)
     upper = block("upper", (0.3, 0.1, 0.2), (at[0], 0.25 + gap, at[1]), turn_x)
     rest = rest_on(upper, lower)
-    least = BodyPair(upper, lower).first_fall_m("upper")
+    least = MeshPair(upper, lower).first_drop_m(upper, fall_reach_m(upper.size_m), TOUCH_M)
     # An overlap of the rims by up to 0.1 mm may or may not count.
     if (rest is None) != math.isinf(least):
         moved = block("upper", (0.2998, 0.1, 0.1998), upper.position_m, turn_x)
@@ -165,7 +166,7 @@ def test_a_leaning_body_stands_on_its_lowest_edge() -> None:
     assert rest is not None
     assert rest.fall_m == pytest.approx(height + 0.2)
     assert rest.wholly
-    told = BodyPair(leaning, floor).falls("leaning")
+    told = MeshPair(leaning, floor).drops(leaning, fall_reach_m(leaning.size_m), TOUCH_M)
     assert told is not None
     assert rest.fall_m == pytest.approx(told.min(), abs=1e-4)  # triangles are tested slightly smaller
     # Half over an edge, the closed form does not apply.
