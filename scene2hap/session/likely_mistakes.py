@@ -11,6 +11,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import islice
@@ -28,10 +29,9 @@ from scene2hap.bundle.pending_corrections import (
 from scene2hap.common.counted import counted, first_of
 from scene2hap.common.warning import warn_of
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics
-from scene2hap.scene.geometry import bounds_of, distances
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.plausibility.contact_normals import are_reversed
-from scene2hap.scene.pose import Pose
+from scene2hap.scene.pose import Pose, in_own
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import Touch
 from scene2hap.session.hand_gains import Felt
@@ -202,8 +202,10 @@ class LikelyMistakes:
 
     def _off_m(self, object_id: str, point_m: Point) -> float:
         """Distance of a point from the box around an object [m]. Searching the surface would take too long."""
-        own_m = self._state.graph.pose(object_id).to_own([point_m])
-        return float(distances(bounds_of(own_m), self._state.objects[object_id].geometry.mesh.bounds_m))
+        state = self._state
+        own_m = in_own(point_m, state.graph.pose(object_id))
+        rows = zip(own_m, state.middle_m(object_id), state.half_m(object_id), strict=True)
+        return math.hypot(*(max(abs(x - middle) - half, 0.0) for x, middle, half in rows))
 
     def _warn_of_touch(self, touch: Touch, off_m: float) -> None:
         warn_of(
