@@ -12,6 +12,7 @@ every change; one when a file is first played); OSC 1.0.
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterator, Mapping
 from typing import Protocol
@@ -114,11 +115,17 @@ class OscLine:
 
 
 def gains_of(frame: GainFrame, clips: Mapping[str, str]) -> Iterator[tuple[str, int, float]]:
-    """Yield clip, index of the hand and gain of the loudest band, for every source and hand."""
+    """Yield clip, index of the hand and gain of the loudest band, for every clip and hand.
+
+    The receiver has one gain for a clip. Of sources that share it, such as equal phones, the powers add up.
+    """
     loudest = np.asarray(frame.gains).max(axis=2, initial=0.0)
+    numbers: dict[str, list[int]] = {}
+    for number, source in enumerate(frame.sources):
+        numbers.setdefault(clips.get(source, source), []).append(number)
     for hand in range(len(frame.hands)):
-        for number, source in enumerate(frame.sources):
-            yield clips.get(source, source), hand, float(loudest[hand, number])
+        for clip, of_clip in numbers.items():
+            yield clip, hand, math.hypot(*loudest[hand, of_clip].tolist())
 
 
 def encode(address: str, *values: str | float | int) -> bytes:

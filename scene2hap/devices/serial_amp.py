@@ -9,6 +9,7 @@ import numpy as np
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
+from scene2hap.common.counted import counted
 from scene2hap.devices.exclusive_use import port_key
 from scene2hap.devices.framing.frames import (
     MAX_PAYLOAD,
@@ -38,6 +39,9 @@ frames."""
 
 WATCHDOG_S = 0.05
 """Time without samples after which a device mutes [s] (docs/serial-protocol.md)."""
+
+SLOWEST_HZ, FASTEST_HZ = 500, 48_000
+"""Bounds of a device's sample rate (docs/serial-protocol.md)."""
 
 _BITS_PER_BYTE = 10
 _FRAME_OVERHEAD = 19
@@ -79,7 +83,7 @@ class SerialLine:
         self._wish_hz = 0
         if sample_rate_hz is not None:
             self._wish_hz = checks.whole(
-                "sample_rate_hz", sample_rate_hz, "Hz", at_least=500, at_most=48000, error=ConfigError
+                "sample_rate_hz", sample_rate_hz, "Hz", at_least=SLOWEST_HZ, at_most=FASTEST_HZ, error=ConfigError
             )
         self._buffer_s = checks.number("buffer_s", buffer_s, "s", at_least=0.002, at_most=1.0, error=ConfigError)
         self._block = checks.whole("block_frames", block_frames, "-", at_least=1, at_most=256, error=ConfigError)
@@ -186,9 +190,21 @@ class SerialLine:
                 "Leave sample_rate_hz out to take what it offers."
             )
         if device.channels < n_channels:
-            raise DeviceError(f"{self._name} has {device.channels} channels; the session has {n_channels} hands.")
-        if not (500 <= device.sample_rate_hz <= 48000 and device.block_frames and device.queue_frames >= 2):
-            raise DeviceError(f"{self._name} answers with {device}, which cannot be played.")
+            raise DeviceError(
+                f"{self._name} has {counted(device.channels, 'channel')}; the session has "
+                f"{counted(n_channels, 'hand')}. Play fewer hands, or connect another device."
+            )
+        if not SLOWEST_HZ <= device.sample_rate_hz <= FASTEST_HZ:
+            raise DeviceError(
+                f"{self._name} offers {device.sample_rate_hz} Hz; it must be {SLOWEST_HZ} to {FASTEST_HZ} Hz. Change "
+                "the rate in the device's FORMAT."
+            )
+        for does, frames, least in (("queues", device.queue_frames, 2), ("takes", device.block_frames, 1)):
+            if frames < least:
+                raise DeviceError(
+                    f"{self._name} {does} {counted(frames, 'frame')}; it must be at least {least}. Change the number "
+                    "in the device's FORMAT."
+                )
         block = self._largest_block(device, n_channels)
         needed = (_FRAME_OVERHEAD + 2 * n_channels * block) / block * device.sample_rate_hz * _BITS_PER_BYTE
         if needed > self._baud_rate:

@@ -24,12 +24,13 @@ from scene2hap.clips.synthesis import RATE_HZ, synthesize
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
 from scene2hap.common.counted import counted
+from scene2hap.common.json_texts import parse_json
 from scene2hap.common.text_files import require_place, write_whole
 from scene2hap.common.warning import warn_of
 from scene2hap.devices.memory import MemorySink
 from scene2hap.errors import ConfigError, ExportError, unwritable
 from scene2hap.export.fidelity import fidelity
-from scene2hap.export.manifest import NAME, Manifest, manifest_of
+from scene2hap.export.manifest import FORMAT, NAME, Manifest, manifest_of
 from scene2hap.export.protocol import EXPORTS, Exported, Exporter, json_bytes
 from scene2hap.export.report import ExportReport, FileReport
 from scene2hap.export.track import Channel, Signal, Track
@@ -37,7 +38,7 @@ from scene2hap.session import HapticSession, SessionConfig
 from scene2hap.session.touch_track import TouchTrack
 from scene2hap.session.track_player import play_track
 
-ALL = "all"
+ALL, REPORT = "all", "report.json"
 _BLOCK_S = 0.05
 """Length of the blocks whose means are compared, to find an offset [s]: one cycle at 20 Hz."""
 _CHANNEL_NAMES = {1: [""], 2: ["left", "right"]}
@@ -63,11 +64,12 @@ def export_bundle(
         step, number done and total number.
     Returns: the written files, with the error of each.
     Raises: ConfigError: an unknown kind or setting; SessionError: touches that cannot be played; ExportError: the
-    folder cannot be written. Files are written atomically, the manifest last. Then files of these kinds are removed
-    that an earlier manifest of this scene lists for a source, and the new one does not.
+    folder cannot be written, or holds a manifest.json or report.json of another program. Files are written atomically,
+    the manifest last. Then files of these kinds are removed that an earlier manifest of this scene lists for a source,
+    and the new one does not.
     Warns: SceneWarning: files of other kinds or of another scene stay, and the new manifest does not list them.
     """
-    exporters, folder = _exporters(to), _place(folder)
+    exporters, folder = _exporters(to), _place(folder, NAME, REPORT)
     if not isinstance(bundle, HapticBundle):
         raise ExportError(
             f"bundle is {checks.described(bundle)}; it must be a HapticBundle, as HapticBundle.load(folder) reads."
@@ -108,7 +110,7 @@ def export_clip(
     Raises: AudioError, ClipError: the file cannot be read; and as `export_bundle`.
     """
     path = checks.path("path", path, error=ExportError)
-    exporters, folder = _exporters(to), _place(folder)
+    exporters, folder = _exporters(to), _place(folder, REPORT)
     if is_haptic_clip(path):
         clip = read_haptic_clip(path)
         channels = {"": Channel(np.clip(synthesize(clip), -1.0, 1.0), RATE_HZ, clip=clip)}
@@ -136,14 +138,33 @@ def _without_offset(samples: Signal, rate_hz: float) -> Signal:
     return np.where(holds, samples - offset, samples)
 
 
-def _place(folder: str | os.PathLike[str]) -> Path:
-    """Return the folder as a path. Raises: ExportError: it cannot be written, which is found before long work."""
+def _place(folder: str | os.PathLike[str], *names: str) -> Path:
+    """Return the folder as a path.
+
+    Raises: ExportError: it cannot be written, or one of these names in it is a file of another program, such as the
+    manifest of a web page or the report of `bake-many`. Both are found before long work.
+    """
     place = checks.path("folder", folder, error=ExportError)
     try:
         require_place(place / NAME)
+        for name in names:
+            if (place / name).is_file() and not _is_of_an_export((place / name).read_bytes()):
+                raise ExportError(
+                    f"{place / name} was not written by an export of scene2hap, which would replace it. Export into a "
+                    "folder of its own, or move that file away."
+                )
     except OSError as cause:
         raise ExportError(unwritable(place, cause)) from cause
     return place
+
+
+def _is_of_an_export(content: bytes) -> bool:
+    """Whether a JSON text is a manifest or a report of an export, of this or of another version."""
+    try:
+        found = parse_json(content)
+    except (ValueError, RecursionError):
+        return False
+    return isinstance(found, dict) and (found.get("format") == FORMAT or {"folder", "files"} <= found.keys())
 
 
 def _exporters(to: Kinds) -> dict[str, Exporter]:
@@ -202,7 +223,7 @@ def _write(
                 progress("exporting", f"{track.name} to {kind}", done, total)
     report = ExportReport(str(folder), tuple(rows))
     before = _files_of_sources(folder) if manifest is not None else None
-    _put(folder, "report.json", json_bytes(report.to_data()))
+    _put(folder, REPORT, json_bytes(report.to_data()))
     _put(folder, "report.txt", f"{report}\n".encode())
     if manifest is not None:
         _put(folder, NAME, manifest(report))

@@ -276,7 +276,9 @@ def test_devices_at_the_port_are_identified(
         assert words in events[0].message
 
     told("plays at 4000 Hz and cannot do 8000 Hz", sample_rate_hz=8000)
-    told("has 1 channels", Kept(channels=1))
+    told("has 1 channel; the session has 2 hands", Kept(channels=1))
+    told("offers 400 Hz; it must be 500 to 48000 Hz", Kept(sample_rate_hz=400))
+    told("queues 1 frame; it must be at least 2", Kept(queue_frames=1))
     told("Raise baud_rate", baud_rate=115200)
     import serial
 

@@ -39,6 +39,15 @@ def test_gain_messages_are_sent_per_hand_and_clip() -> None:
     ]
 
 
+def test_sources_that_share_a_clip_have_one_gain_of_their_power() -> None:
+    """Two phones of one sound: the receiver has one gain for it, and it must not be that of the phone left alone."""
+    gains = np.array([[[0.5], [0.0]], [[0.6], [0.8]]], dtype=np.float32)
+    for clips in ({"radio": "ring.wav", "kettle": "ring.wav"}, {"radio": "kettle"}):
+        found = list(gains_of(Frame(gains), clips))
+        assert [(clip, hand) for clip, hand, _ in found] == [(clips.get("kettle", "kettle"), hand) for hand in (0, 1)]
+        assert [gain for *_, gain in found] == pytest.approx([0.5, 1.0])
+
+
 class Wire(Datagrams):
     """Datagrams that are kept instead of sent."""
 

@@ -176,6 +176,33 @@ sink.close()
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.parametrize(("suffix", "header_bytes"), [("wav", 44), ("rf64", 104)])
+def test_a_program_that_is_killed_leaves_its_samples_in_the_draft(
+    tmp_path: Path, suffix: str, header_bytes: int
+) -> None:
+    """docs/actuators.md says where they are."""
+    dies = f"""
+import os
+import numpy as np
+from scene2hap.devices.protocol import SinkFormat
+from scene2hap.devices.wav import WavSink
+sink = WavSink({str(tmp_path / f"take.{suffix}")!r})
+sink.open(SinkFormat(48_000, ("left", "right", "tip")))
+sink.start(lambda n: np.full((n, 3), (0.5, -0.25, 0.125), np.float32))
+sink.pull(5000)
+os._exit(9)  # like kill -9: nothing is closed
+"""
+    assert subprocess.run([sys.executable, "-c", dies], timeout=60).returncode == 9
+    (draft,) = tmp_path.iterdir()
+    assert draft.name.startswith(f".take.{suffix}.")
+    assert draft.name.endswith(f".part.{suffix}")
+    by_hand = b"\0\0\x40" + b"\0\0\xe0" + b"\0\0\x10"  # 24 bits, little-endian: 2^22, -2^21, 2^20
+    assert draft.read_bytes()[header_bytes:] == 5000 * by_hand
+    if suffix == "wav":
+        samples, rate_hz = soundfile.read(draft)
+        assert (samples.shape, rate_hz) == ((5000, 3), 48_000)
+
+
 @pytest.mark.parametrize(
     ("rate_hz", "channels", "says"),
     [

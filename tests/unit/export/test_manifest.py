@@ -9,11 +9,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import soundfile
 from numpy.typing import NDArray
 
 from scene2hap import SceneWarning
 from scene2hap.audio.run_curve import RunCurve
-from scene2hap.export import export_bundle
+from scene2hap.errors import ExportError
+from scene2hap.export import export_bundle, export_clip
 from scenes import table_with_two_phones
 
 
@@ -135,3 +137,36 @@ def test_no_file_outside_is_removed_for_a_manifest_that_lists_it(tmp_path: Path)
     (out / "manifest.json").write_text(text.replace(f"wav/{listed}", "wav/../../victim.wav"), encoding="utf-8")
     assert export_bundle(bundle, out, "wav").removed == ()
     assert victim.exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("manifest.json", '{"name": "my web page", "start_url": "index.html"}'),
+        ("manifest.json", "[1]"),
+        ("manifest.json", "{"),
+        ("report.json", '{"scenes": [{"cost_usd": 1.5}]}'),
+    ],
+)
+def test_a_file_of_another_program_is_not_replaced(tmp_path: Path, name: str, text: str) -> None:
+    _, bundle = table_with_two_phones()
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    with pytest.raises(ExportError, match=rf"{name} was not written by an export .* folder of its own"):
+        export_bundle(bundle, tmp_path, "wav")
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+    assert (tmp_path / name).read_text(encoding="utf-8") == text
+
+
+def test_a_clip_replaces_neither_a_report_nor_the_files_beside_it(tmp_path: Path) -> None:
+    clip = tmp_path / "clip.wav"
+    soundfile.write(clip, np.sin(np.arange(4000) * 0.2), 8000)
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "manifest.json").write_text('{"name": "my web page"}', encoding="utf-8")  # a clip has no manifest
+    for _ in range(2):
+        export_clip(clip, out, "pcm")
+    (out / "report.json").write_text('{"scenes": []}', encoding="utf-8")
+    before = {path: path.read_bytes() for path in out.rglob("*.*")}
+    with pytest.raises(ExportError, match=r"report\.json was not written by an export"):
+        export_clip(clip, out, "haptic")
+    assert {path: path.read_bytes() for path in out.rglob("*.*")} == before
