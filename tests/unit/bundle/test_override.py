@@ -70,6 +70,11 @@ def test_thickness_that_the_object_cannot_have_is_refused(bundle: HapticBundle, 
         bundle.override("table", thickness_m=thickness_m)
 
 
+def test_thickness_in_millimetres_is_refused_without_a_bundle_too() -> None:
+    with pytest.raises(BundleError, match=r"thickness_m is 30 m; it must be at most 10"):
+        Override(thickness_m=30)
+
+
 def test_thickness_of_a_person_stays_where_the_mesh_is_another_now(bundle: HapticBundle, tmp_path: Path) -> None:
     folder = bundle.override("table", thickness_m=0.2).save(tmp_path / "b")
     document = json.loads((folder / "scene.json").read_text())
