@@ -76,6 +76,17 @@ def test_a_session_that_takes_a_sink_over_gets_its_events() -> None:
     new.close()
 
 
+def test_a_missing_device_is_named_by_each_session_that_plays_on_it_alone_or_with_others() -> None:
+    card = Deviceless()
+    for sink in (TeeSink([card, MemorySink()]), card, TeeSink([card, MemorySink()])):
+        with (
+            HapticSession(*table_with_two_phones(), CONFIG, sink=sink) as s,
+            pytest.warns(SceneWarning, match="no card"),
+        ):
+            s.update(touches=[ON_TABLE])
+        assert card.on_event is None
+
+
 def test_a_callback_that_calls_the_one_before_is_called_once_after_a_second_start() -> None:
     sink, events = Deviceless(), list[SinkEvent]()
     s = HapticSession(*table_with_two_phones(), CONFIG, sink=sink)
