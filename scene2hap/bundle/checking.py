@@ -44,9 +44,10 @@ def require_plausible(bundle: BundleContents, folder: Path) -> None:
     """Check sizes against the measured ones, corrected states, and that the scene can provide each needed contact.
 
     Raises: BundleError: a size that this object's plate cannot have.
-    Warns: BundleWarning: an object that does not vibrate has loops; an object has the name of one material and the
-    constants of another; a state needs a contact that no object in the scene can provide; a tactile loop that is
-    silent, too loud or with ends that do not meet; a correction of a state that its object does not have.
+    Warns: BundleWarning: a corrected thickness that it cannot have; an object that does not vibrate has loops; an
+    object has the name of one material and the constants of another; a state needs a contact that no object in the
+    scene can provide; a tactile loop that is silent, too loud or with ends that do not meet; a correction of a state
+    that its object does not have.
     """
     objects, scene = bundle.objects, bundle.snapshot
     categories = {item.id: "" for item in scene.objects} | {key: said.object_category for key, said in objects.items()}
@@ -54,8 +55,13 @@ def require_plausible(bundle: BundleContents, folder: Path) -> None:
         # An object without a material is no plate, and earlier versions stored its measured size unchecked.
         if haptics.material is not None:
             wrong = plate_sizes.faults(haptics.estimated_size_m, scene.object(object_id).size_m)
-            if bundle.overrides.get(object_id, NONE).thickness_m is not None:
-                wrong.pop("thickness", None)  # It was checked when it was given; the mesh may be another one since.
+            # `override` checked it against the mesh of then. A person may also have written it by hand.
+            if "thickness" in wrong and bundle.overrides.get(object_id, NONE).thickness_m is not None:
+                warn_of(
+                    f"{folder / 'overrides.json'}: thickness_m of {object_id!r} is {wrong.pop('thickness')}. It is "
+                    "played as it is.",
+                    BundleWarning,
+                )
             if wrong:
                 faults = "; ".join(f"{edge} is {why}" for edge, why in wrong.items())
                 raise BundleError(f"{folder / 'objects.json'}: {object_id}.estimated_size_m: {faults}.")

@@ -32,6 +32,8 @@ _OF_STATES = ("intensity", "start_up_s", "wind_down_s")
 
 _LEAST_GAIN_DB, _MOST_GAIN_DB = -120.0, 60.0
 """Bounds of a level [dB]; the lower one is that of 20 bits (assumed: whoever wants less wants silence)."""
+_THICKEST_M = 10.0
+"""Largest thickness [m] (assumed: more than any wall, and less than most numbers that are meant in millimetres)."""
 _LONGEST_NAME = 200
 """Most characters of a name (assumed: three times the longest name that a designer gives; a model reads it)."""
 _BOUNDS: Mapping[str, Mapping[str, Any]] = {
@@ -52,8 +54,9 @@ class Override:
 
     vibrates : True if the object vibrates by itself.
     gain_db : its level at the hand, relative to the inferred one, -120..60 [dB].
-    mass_kg : mass of the whole object [kg]. thickness_m : of its main surface, such as the sheet of a cabinet that was
-        measured as a solid block [m].
+    mass_kg : mass of the whole object [kg].
+    thickness_m : thickness of its main surface, such as the sheet of a cabinet that was measured as a solid block,
+        2e-5..10 [m]. `HapticBundle.override` also checks it against the measured size.
     feet : the material of its feet, or a name in the table.
     name : what it is, such as "washing machine". Inference reads this instead of the authored name.
     material : its material, or a name in the table.
@@ -108,7 +111,9 @@ class Override:
         if self.mass_kg is not None:
             object.__setattr__(self, "mass_kg", checked_mass_kg(self.mass_kg, BundleError))
         if self.thickness_m is not None:
-            thickness_m = checks.number("thickness_m", self.thickness_m, "m", at_least=THINNEST_M, error=BundleError)
+            thickness_m = checks.number(
+                "thickness_m", self.thickness_m, "m", at_least=THINNEST_M, at_most=_THICKEST_M, error=BundleError
+            )
             object.__setattr__(self, "thickness_m", thickness_m)
         for name in ("material", "feet"):
             given = getattr(self, name)

@@ -66,7 +66,8 @@ POLL_S = 0.05
 class Rebake:
     """Bake parts of a bundle again, with the settings in the arguments, and note what was done.
 
-    `remade` has the loops that were made, with the reasons. `report` is the inference by a model, None without one.
+    `remade` has the loops that were made, with the reasons. `report` is the inference by a model on a network, or by
+    any other backend with errors; None without one.
     """
 
     arguments: argparse.Namespace
@@ -88,7 +89,8 @@ class Rebake:
         )
 
     def _note(self, report: InferenceReport) -> None:
-        self.report = report if is_remote(self.config.llm) and report.calls else None
+        is_of_model = is_remote(self.config.llm) and report.calls
+        self.report = report if is_of_model or report.errors else None
 
     def _note_loops(self, remade: Remade) -> None:
         self.remade = {key: {state: list(why) for state, why in states.items()} for key, states in remade.items()}

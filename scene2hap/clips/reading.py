@@ -53,7 +53,9 @@ def read_any_clip(path: str | os.PathLike[str]) -> AudioClip:
     try:
         return read_clip(Path(path))
     except AudioError as cause:
-        if Path(path).suffix.lower() in files.SUFFIXES or not Path(path).is_file():
+        # Other errors are about one sound, such as its channels.
+        is_no_sound = str(cause).endswith(f"Use {files.READABLE}.")
+        if not is_no_sound or Path(path).suffix.lower() in files.SUFFIXES:
             raise
         raise AudioError(f"{str(cause).rstrip('.')}, or a haptic clip: {', '.join(SUFFIXES)}.") from cause
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import sys
-import threading
 import warnings
+from types import FrameType
 
 _PASSED = (__name__.partition(".")[0], "asyncio", "contextlib", "dataclasses")
 """Packages whose lines are not the caller's: our own, the event loop of `bake`, decorators, and copies of data."""
+_STARTS = ("threading", "concurrent", "multiprocessing")
+"""Packages that begin a worker; before their lines there is no line of a caller."""
 
 
 class SceneWarning(UserWarning):
@@ -15,10 +17,15 @@ class SceneWarning(UserWarning):
 
 
 def warn_of(sentence: str, category: type[Warning] = SceneWarning) -> None:
-    """Issue a warning that points at the caller's line; on a worker thread, which has none, at the line that warns."""
+    """Issue a warning that points at the caller's line; on a worker, which has none, at the line that warns."""
     level, frame = 2, sys._getframe(1)
-    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] in _PASSED:
+    while frame.f_back is not None and _package(frame) in _PASSED:
         level, frame = level + 1, frame.f_back
-    if frame.f_globals.get("__name__") == threading.__name__:
+    if _package(frame) in _STARTS:
         level = 2
     warnings.warn(sentence, category, stacklevel=level)
+
+
+def _package(frame: FrameType) -> str:
+    name: str = frame.f_globals.get("__name__", "")
+    return name.partition(".")[0]

@@ -68,9 +68,6 @@ class TeeSink(PulledSink):
         self._format: SinkFormat | None = None
         self._buffer: _Buffer | None = None
         self._faults = 0
-        for sink in self.sinks:
-            if hasattr(sink, "on_event") and getattr(sink, "on_event", None) is None:
-                sink.on_event = self._pass_on
 
     def __repr__(self) -> str:
         return f"TeeSink({list(self.sinks)!r})"
@@ -80,12 +77,14 @@ class TeeSink(PulledSink):
         self._format = format
         self._faults = 0
         self._whole = WholeFrames(format.sample_rate_hz)
+        self._listen()
         for number, sink in enumerate(self.sinks):
             try:
                 sink.open(format)
             except Exception:
                 for opened in self.sinks[:number]:
                     getattr(opened, "abort", opened.close)()
+                self._listen_no_more()
                 raise
 
     def start(self, fill: Fill) -> None:
@@ -118,6 +117,7 @@ class TeeSink(PulledSink):
         """Close all sinks."""
         self._format = None
         with ExitStack() as last:
+            last.callback(self._listen_no_more)
             last.callback(self._each, "close")
             self.stop()
 
@@ -125,6 +125,7 @@ class TeeSink(PulledSink):
         """Stop all sinks, and let sinks that support it delete their files."""
         self._format = None
         with ExitStack() as last:
+            last.callback(self._listen_no_more)
             last.callback(self._each, "abort", "close")
             self.stop()
 
@@ -154,6 +155,18 @@ class TeeSink(PulledSink):
         with ExitStack() as calls:
             for sink in reversed(self.sinks):
                 calls.callback(next(getattr(sink, name) for name in names if hasattr(sink, name)))
+
+    def _listen(self) -> None:
+        """Pass on the events of the sinks that have no callback of their own, until `_listen_no_more`."""
+        for sink in self.sinks:
+            if hasattr(sink, "on_event") and getattr(sink, "on_event", None) is None:
+                sink.on_event = self._pass_on
+
+    def _listen_no_more(self) -> None:
+        """Take the callback away: a sink may play alone or in another group next."""
+        for sink in self.sinks:
+            if getattr(sink, "on_event", None) == self._pass_on:
+                sink.on_event = None  # type: ignore[attr-defined]  # looked up by name, see ActuatorSink
 
     def _pass_on(self, event: SinkEvent) -> None:
         if self.on_event is not None:

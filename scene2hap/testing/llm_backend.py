@@ -7,9 +7,10 @@ import copy
 import inspect
 from collections import Counter
 
+from scene2hap.common.run_coroutine import run_waiting
 from scene2hap.llm import BACKENDS
 from scene2hap.llm.backends.chat import about
-from scene2hap.llm.chain import infer_haptics
+from scene2hap.llm.chain import infer_scene
 from scene2hap.llm.protocol import LLMBackend, LLMReply, LLMRequest
 from scene2hap.llm.validation import find_fault
 from scene2hap.plugins import lacking
@@ -38,7 +39,8 @@ def check_llm_backend(backend: LLMBackend, scene: SceneSnapshot = ROOM) -> None:
     problem = lacking(backend, BACKENDS.members)
     assert not problem, problem
     watched = _Watched(backend)
-    objects = infer_haptics(scene, watched)
+    # Not `infer_haptics`, which warns of lost answers: the errors below name them.
+    objects = run_waiting(infer_scene(scene, watched), "asyncio.to_thread(check_llm_backend, ...)").objects
     name = type(backend).__name__
     assert set(objects) == {item.id for item in scene.objects}
     unanswered = {key: haptics.provenance for key, haptics in objects.items() if haptics.object_category == "unknown"}

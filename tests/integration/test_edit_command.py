@@ -16,12 +16,14 @@ import soundfile
 from batch_server import answered
 from files_of import files_of
 from llm_server import serving
-from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake
+from scene2hap import Box, HapticBundle, LLMReply, LLMRequest, Pose, SceneObject, SceneSnapshot, bake
 from scene2hap.audio.files import write_wav
 from scene2hap.bundle.differences import differences
 from scene2hap.cli import main
 from scene2hap.cli.console import Console
 from scene2hap.cli.play import silence
+from scene2hap.errors import BadAnswer
+from scene2hap.llm.lexicon.backend import LexiconBackend
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.session import HapticSession, Touch
 
@@ -616,3 +618,18 @@ def test_reset_takes_back_the_corrections_of_one_object(
 def test_equal_bundles_are_said_to_be_equal(fan: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["edit", str(fan), "diff", str(fan)]) == 0
     assert capsys.readouterr().out == "no differences\n"
+
+
+def test_an_answer_that_a_backend_without_a_network_loses_is_named(
+    fan: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    complete = LexiconBackend.complete
+
+    async def fails(self: LexiconBackend, request: LLMRequest) -> LLMReply:
+        if request.component == "vibration_describer":
+            raise BadAnswer("there is no answer today.")
+        return await complete(self, request)
+
+    monkeypatch.setattr(LexiconBackend, "complete", fails)
+    assert main(["edit", str(fan), "name", "fan", "washing machine"]) == 0
+    assert "there is no answer today" in capsys.readouterr().err

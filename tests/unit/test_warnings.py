@@ -5,6 +5,8 @@ import inspect
 import threading
 import warnings
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -70,12 +72,26 @@ def test_corrections_warn_at_the_callers_line(bundle: HapticBundle) -> None:
     assert places_of(lambda: asyncio.run(abake(SCENE, overrides=lost))) == {("BundleWarning", True, True)}
 
 
-def test_a_warning_on_a_thread_of_the_library_points_at_the_line_that_warns() -> None:
+def in_thread(work: Callable[[], object]) -> None:
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+
+
+def in_pool(work: Callable[[], object]) -> None:
+    with ThreadPoolExecutor(1) as pool:
+        pool.submit(work).result()
+
+
+def beside_an_event_loop(work: Callable[[], object]) -> None:
+    asyncio.run(asyncio.to_thread(work))  # as `bake_many` reads scenes
+
+
+@pytest.mark.parametrize("run", [in_thread, in_pool, beside_an_event_loop])
+def test_a_warning_on_a_thread_of_the_library_points_at_the_line_that_warns(run: Callable[..., None]) -> None:
     """There is no line of a caller, and one of the standard library says nothing."""
-    thread = threading.Thread(target=Pose.from_yaw, args=((0, 0, 0), 90))
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        thread.start()
-        thread.join()
+        run(partial(Pose.from_yaw, (0, 0, 0), 90))
     assert [one.category for one in caught] == [SceneWarning]
     assert Path(caught[0].filename).is_relative_to(Path(scene2hap.__file__).parent)

@@ -30,7 +30,8 @@ _OUT_OF_MONEY = frozenset(
 _NO_EYES = "image input is not supported"
 """Message of llama.cpp, with status 500, if it was started without a vision projector."""
 
-_ABOUT_PICTURES = re.compile(r"\b(images?|image_url|pictures?|vision|multi-?modal)\b", re.IGNORECASE)
+_ABOUT_PICTURES = re.compile(r"(?<![\w/-])(images?|image_url|pictures?|vision|multi-?modal)(?![\w-])", re.IGNORECASE)
+"""Words of a refusal of pictures, but not those in the name of a model, such as llama-3.2-11b-vision-preview."""
 
 _HINTS = {
     **dict.fromkeys((301, 302, 303, 307, 308), "It redirects, and a key is sent to base_url alone: correct base_url."),
@@ -88,7 +89,7 @@ def failure(reply: WebReply, *, now_s: float | None = None) -> BackendUnavailabl
         parts.append(f"It asks to wait {wait_s:.0f} s; try again then.")
     elif "response_format" in f"{error.param} {error.message}":
         parts.append("For a service without strict output, use kind 'local' with its base_url, model and api_key.")
-    elif reply.status in (400, 422) and _ABOUT_PICTURES.search(error.message):
+    elif reply.status in (400, 404, 422) and _ABOUT_PICTURES.search(error.message):
         parts.append(
             "If the model reads no pictures, choose one that does, or bake without them (`--no-pictures`, or a scene "
             "without capture_images)."

@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from itertools import islice
 from typing import Any
 
-from scene2hap.common.counted import counted
+from scene2hap.common.checks import represented
+from scene2hap.common.counted import first_of
 from scene2hap.common.warning import warn_of
 from scene2hap.llm.backends.chat import BackendWarning
 from scene2hap.llm.protocol import Component, LLMReply
 from scene2hap.llm.wrappers.prices import PriceList
+
+_LONGEST_SHOWN = 1000
+"""Most characters of an error in a warning: a service's longest message, its address and the next step."""
 
 
 @dataclass
@@ -63,15 +66,22 @@ class InferenceReport:
         return None if self.unmetered or len(known) < len(costs) else sum(known)
 
     def warn_of_errors(self) -> None:
-        """Warn of questions without an answer, for callers who do not get the report. Warns: BackendWarning."""
-        for what, problem in islice(self.errors.items(), 1):
-            warn_of(
-                f"{counted(len(self.errors), 'question')} to the model got no answer. The first, about "
-                f"{what or 'the scene'}: {problem} What is not known is left out. Ask again, which repeats only these "
-                "questions if the backend has a cache, or give the values by override. The report has all errors: "
-                "on_report= of bake, or that of infer_scene.",
-                BackendWarning,
-            )
+        """Warn of objects, states and materials without an answer, for callers who do not get the report.
+
+        Warns: BackendWarning.
+        """
+        if not self.errors:
+            return
+        about = first_of([represented(what) if what else "the scene" for what in self.errors], 3)
+        # A backend of a user's own may raise an error with a whole answer in it.
+        first = " ".join(next(iter(self.errors.values())).split())
+        first = f"{first[:_LONGEST_SHOWN]}..." if len(first) > _LONGEST_SHOWN else f"{first.rstrip('.')}."
+        warn_of(
+            f"the model gave no answer about {about}. The first error: {first} What is not known is left out. Ask "
+            "again, which repeats only these questions if the backend has a cache, or give the values by override. The "
+            "report has all errors: on_report= of bake, or that of infer_scene.",
+            BackendWarning,
+        )
 
     def as_json(self) -> Mapping[str, Any]:
         """Return the report as JSON values."""

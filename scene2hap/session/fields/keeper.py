@@ -350,7 +350,7 @@ class LiveKeeper:
 
 
 def keeper_of(config: SessionConfig, state: SceneState, excitations: Sequence[Excitation]) -> FieldProvider:
-    """Return the keeper for the configured model: `LiveKeeper` if the model has a live field."""
+    """Return the keeper for the configured model: `LiveKeeper` if it has a live field that need not be scaled."""
     model, bands = config.propagation, config.bands
     # The law is its own reference.
     is_scaled = config.reference == "felt_near" and not isinstance(model, ExponentialPlate)

@@ -55,6 +55,7 @@ class Output:
         self._shown: HapticFrame | None = None
         self._events: dict[str, SinkEvent] = {}  # the last one of each sink
         self._on_event: EventCallback | None = None
+        self._note: EventCallback | None = None
         self.is_unused: bool = built is not None
         """Whether a sink is set that was never started."""
 
@@ -99,10 +100,17 @@ class Output:
 
     def _listen(self, sink: ActuatorSink) -> None:
         """Note the events of a sink until `_listen_no_more`, and pass them on to its own callback."""
-        self._events.clear()
-        self._on_event = getattr(sink, "on_event", None)
+        events, on_event = dict[str, SinkEvent](), getattr(sink, "on_event", None)
+
+        # Another function at each start: a game may have put its own callback over the last one, and call that one.
+        def note(event: SinkEvent) -> None:
+            events[event.sink] = event
+            if on_event is not None:
+                on_event(event)
+
+        self._events, self._on_event, self._note = events, on_event, note
         if hasattr(sink, "on_event"):
-            sink.on_event = self._note
+            sink.on_event = note
 
     def _listen_no_more(self, sink: ActuatorSink) -> None:
         """Give the sink its own callback back: another session may play on it next."""
@@ -110,12 +118,7 @@ class Output:
             sink.on_event = self._on_event  # type: ignore[attr-defined]  # looked up by name, see ActuatorSink
 
     def _is_listening(self, sink: ActuatorSink | None) -> bool:
-        return getattr(sink, "on_event", None) == self._note
-
-    def _note(self, event: SinkEvent) -> None:
-        self._events[event.sink] = event
-        if self._on_event is not None:
-            self._on_event(event)
+        return self._note is not None and getattr(sink, "on_event", None) is self._note
 
     def feed(self, frame: HapticFrame) -> None:
         """Reset the watchdog, and pass the gains to the sink."""
@@ -165,8 +168,8 @@ class Output:
             on_trip=self._show_silence,
         )
         claim_sink(self.sink, self)
-        self._listen(self.sink)
         try:
+            self._listen(self.sink)
             self.sink.open(SinkFormat(rate, tuple(hands)))
             self.sink.start(safety.guard(fill))
         except BaseException:

@@ -32,7 +32,8 @@ class Switching:
     def __init__(self, sources: Sources, playback: Playback, state: SceneState, sample_rate_hz: int) -> None:
         self._sources, self._playback, self._state, self._rate_hz = sources, playback, state, sample_rate_hz
         self._passing: dict[str, _Passing] = {}
-        # The frame at which a source's on-time or off-time ends, and the source, since another may get the same id.
+        # Where a source's on-time or off-time ends [frames], and the source, since another may get the same id. Parts
+        # of a frame are kept, since they add up. It ends at the nearest frame: 1.1 s are 52800.00000000001 frames.
         self._turns: dict[str, tuple[float, Source]] = {}
         # Starts and stops of a saved game, which go on once the contacts of the sources are known.
         self._resumed: dict[str, tuple[Running, Source]] = {}
@@ -88,7 +89,7 @@ class Switching:
                 self._sources.let_pass(source_id, None)
         if over:
             self._playback.change_rows(self._sources.rows(), now)
-        due = [source_id for source_id, (end, _) in self._turns.items() if now >= end]
+        due = [source_id for source_id, (end, _) in self._turns.items() if now >= round(end)]
         for source_id in due:
             source = self._sources[source_id]
             was_running = source.is_running
@@ -187,7 +188,7 @@ class Switching:
             return
         end, _ = self._turns[source_id]
         end += (now - end) // sum(turns) * sum(turns)  # a stall of the game may last many turns
-        while end <= now:
+        while now >= round(end):
             source.is_resting = not source.is_resting
             end += turns[source.is_resting]
         self._turns[source_id] = (end, source)

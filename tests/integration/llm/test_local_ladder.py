@@ -94,10 +94,25 @@ def test_llama_cpp_without_vision_is_not_retried() -> None:
     assert not caught.value.retryable
 
 
-@pytest.mark.parametrize("message", ["llava is not a multimodal model", "Model does not support images."])
-def test_a_refusal_of_pictures_says_how_to_bake_without(message: str) -> None:
-    with serving(*[refused(400, message)] * 3) as server, pytest.raises(BackendUnavailable, match="--no-pictures"):
+@pytest.mark.parametrize(
+    ("status", "message"),
+    [
+        (400, "llava is not a multimodal model"),
+        (400, "Model does not support images."),
+        (404, "No endpoints found that support image input"),  # of OpenRouter
+    ],
+)
+def test_a_refusal_of_pictures_says_how_to_bake_without(status: int, message: str) -> None:
+    with serving(*[refused(status, message)] * 3) as server, pytest.raises(BackendUnavailable, match="--no-pictures"):
         ask(local(server), request(images=(PNG,)))
+
+
+def test_a_model_that_is_gone_is_no_refusal_of_pictures_although_its_name_speaks_of_them() -> None:
+    gone = "The model `llama-3.2-11b-vision-preview` has been decommissioned."
+    with serving(*[refused(400, gone)] * 3) as server, pytest.raises(BackendUnavailable) as caught:
+        ask(local(server), request(images=(PNG,)))
+    assert "decommissioned" in str(caught.value)
+    assert "pictures" not in str(caught.value)
 
 
 def test_llama_cpp_that_still_loads_is_retried() -> None:

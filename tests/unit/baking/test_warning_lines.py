@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -10,6 +11,7 @@ from scene2hap import (
     BackendWarning,
     Box,
     LLMReply,
+    Pose,
     SceneObject,
     SceneSnapshot,
     SceneWarning,
@@ -17,6 +19,7 @@ from scene2hap import (
     infer_haptics,
     rebake,
 )
+from scene2hap.errors import BadAnswer
 from scene2hap.llm.chain.report import InferenceReport
 from scripted_backend import SCENE, Scripted
 
@@ -49,7 +52,7 @@ def inferred() -> None:
 
 @pytest.mark.parametrize("make", [baked, baked_again, inferred])
 def test_a_lost_answer_is_a_warning_unless_the_report_is_taken(make: Callable[[], None]) -> None:
-    with pytest.warns(BackendWarning, match="1 question to the model got no answer.*'cup'") as caught:
+    with pytest.warns(BackendWarning, match="no answer about 'cup'. The first error: ") as caught:
         make()
     assert {one.filename for one in caught if one.category is BackendWarning} == {__file__}
     reports = list[InferenceReport]()
@@ -58,3 +61,21 @@ def test_a_lost_answer_is_a_warning_unless_the_report_is_taken(make: Callable[[]
         bake(SCENE, BROKEN, on_report=reports.append)
         bake(SCENE, {"llm": Scripted()})
     assert list(reports[0].errors) == ["cup"]
+
+
+def test_a_warning_of_lost_answers_names_copies_as_objects_and_shortens_a_long_error() -> None:
+    """Four copies of the cup share one question."""
+    cup = SCENE.object("cup")
+    cups = [replace(cup, id=f"cup{k}", name="cup", pose=Pose((2.0 + k, 1.0, 1.0))) for k in range(4)]
+
+    def fails(request: Any, answer: dict[str, Any]) -> Any:
+        if request.subject == "cup":
+            raise BadAnswer("not\n" + 5000 * "x")
+        return answer
+
+    with pytest.warns(BackendWarning) as caught:
+        bake(SceneSnapshot.build([*SCENE.objects, *cups]), {"llm": Scripted(object_analyzer=fails)})
+    (said,) = (str(one.message) for one in caught if one.category is BackendWarning)
+    assert said.startswith("the model gave no answer about 'cup', 'cup0', 'cup1' and 2 more. The first error: not xxx")
+    assert "xxx... What is not known is left out. " in said
+    assert len(said) < 1500

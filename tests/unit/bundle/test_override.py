@@ -8,7 +8,7 @@ import pytest
 
 from scene2hap import AudioClip, Credit, HapticBundle, HapticSession, Material, Touch, materials
 from scene2hap.audio.files import write_wav
-from scene2hap.bundle import Override
+from scene2hap.bundle import BundleWarning, Override
 from scene2hap.errors import AudioError, BundleError, UnknownMaterial, UnknownObject
 from scenes import RATE, table_with_two_phones
 
@@ -70,6 +70,11 @@ def test_thickness_that_the_object_cannot_have_is_refused(bundle: HapticBundle, 
         bundle.override("table", thickness_m=thickness_m)
 
 
+def test_thickness_in_millimetres_is_refused_without_a_bundle_too() -> None:
+    with pytest.raises(BundleError, match=r"thickness_m is 30 m; it must be at most 10"):
+        Override(thickness_m=30)
+
+
 def test_thickness_of_a_person_stays_where_the_mesh_is_another_now(bundle: HapticBundle, tmp_path: Path) -> None:
     folder = bundle.override("table", thickness_m=0.2).save(tmp_path / "b")
     document = json.loads((folder / "scene.json").read_text())
@@ -79,7 +84,8 @@ def test_thickness_of_a_person_stays_where_the_mesh_is_another_now(bundle: Hapti
     rows = json.loads((folder / "objects.json").read_text())
     rows["table"]["estimated_size_m"][1] = 0.3
     (folder / "objects.json").write_text(json.dumps(rows))
-    assert HapticBundle.load(folder).objects["table"].estimated_size_m[2] == 0.2
+    with pytest.warns(BundleWarning, match=r"thickness_m of 'table' is 0\.2 m, but it was measured as .* to 0\.1 m\."):
+        assert HapticBundle.load(folder).objects["table"].estimated_size_m[2] == 0.2
 
 
 def test_level_override_changes_the_output(bundle: HapticBundle) -> None:

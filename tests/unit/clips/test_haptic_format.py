@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import soundfile
 from hypothesis import given, settings, strategies as st
 
 from others import SHARED, needed
@@ -184,3 +185,14 @@ def test_a_file_that_is_neither_clip_nor_sound_is_refused_with_both_lists(tmp_pa
         AudioError, match=r"\(Format not recognised\)\. Use WAV, .* or Opus, or a haptic clip: \.haptic, \.ahap"
     ):
         read_any_clip(tmp_path / name)
+
+
+def test_a_sound_with_another_suffix_that_cannot_be_used_is_refused_as_a_sound(tmp_path: Path) -> None:
+    soundfile.write(tmp_path / "fan.data", np.zeros((10, 80)), 8000, format="WAV")
+    with pytest.raises(AudioError, match=r"has 80 channels; it must have at most 64\. Mix some\.$"):
+        read_any_clip(tmp_path / "fan.data")
+    (tmp_path / "pointer.data").write_text(
+        f"version https://git-lfs.github.com/spec/v1\noid sha256:{64 * 'a'}\nsize 9\n"
+    )
+    with pytest.raises(AudioError, match=r"`git lfs pull` in its repository\.$"):
+        read_any_clip(tmp_path / "pointer.data")

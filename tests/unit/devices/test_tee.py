@@ -153,9 +153,11 @@ def test_abort_leaves_no_file(tmp_path: Path) -> None:
 
 def test_failure_to_open_one_sink_closes_the_others(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way")
-    tee = TeeSink([WavSink(tmp_path / "a.wav"), WavSink(tmp_path / "file" / "b.wav")])
+    device = Device()
+    tee = TeeSink([WavSink(tmp_path / "a.wav"), device, WavSink(tmp_path / "file" / "b.wav")])
     with pytest.raises(DeviceError, match="cannot be written"):
         tee.open(FORMAT)
+    assert device.on_event is None
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 
@@ -164,11 +166,14 @@ def test_events_and_gains_are_passed_on() -> None:
     told: list[SinkEvent] = []
     tee = TeeSink([device, MemorySink()], on_event=told.append)
     event = SinkEvent("lost", "it has gone.", 1.0)
+    tee.open(FORMAT)
     assert device.on_event is not None
     device.on_event(event)
     assert told == [event]
     tee.show("frame")
     assert device.shown == ["frame"]
+    tee.close()
+    assert device.on_event is None
 
 
 class FullDisk(MemorySink):

@@ -21,13 +21,11 @@ from scene2hap import (
     MemorySink,
     NoPropagation,
     Pose,
-    SceneWarning,
-    TeeSink,
     Touch,
     WavSink,
     materials,
 )
-from scene2hap.devices.protocol import EventCallback, Fill, SinkEvent
+from scene2hap.devices.protocol import Fill
 from scene2hap.errors import ConfigError, DeviceError, ModelDomainError, SessionError, UnknownObject
 from scene2hap.render.safety import SafetyLayer
 from scenes import RATE, table_with_two_phones
@@ -281,70 +279,6 @@ play()
     samples, _ = soundfile.read(tmp_path / "out.wav")
     assert len(samples) >= 48_000
     np.testing.assert_allclose(samples[-1], 0, atol=1e-6)  # it fades out
-
-
-class Deviceless(MemorySink):
-    """A sink whose device is not there."""
-
-    on_event: EventCallback | None = None
-
-    def start(self, fill: Fill) -> None:
-        super().start(fill)
-        if self.on_event is not None:
-            self.on_event(SinkEvent("unavailable", "no card. Plug one in.", 0.0, "card"))
-
-
-def test_a_sink_without_its_device_is_named_once() -> None:
-    with HapticSession(*table_with_two_phones(), CONFIG, sink=Deviceless()) as s:
-        with pytest.warns(SceneWarning, match=r"no card\. Plug one in\."):
-            s.update(touches=[ON_TABLE])
-        s.update(touches=[ON_TABLE])
-        assert "no card" in s.explain("left").text
-
-
-def test_a_missing_device_is_named_although_another_one_plays() -> None:
-    card, amplifier = Deviceless(), MemorySink()
-    amplifier.on_event = None  # type: ignore[attr-defined]  # looked up by name
-    tee = TeeSink([card, amplifier])
-    with HapticSession(*table_with_two_phones(), CONFIG, sink=tee) as s:
-        assert tee.on_event is not None
-        tee.on_event(SinkEvent("unavailable", "no card.", 0.0, "card"))
-        tee.on_event(SinkEvent("connected", "the amplifier plays.", 0.1, "amplifier"))
-        with pytest.warns(SceneWarning, match="no card"):
-            s.update(touches=[ON_TABLE])
-        assert "no card" in s.explain("left").text
-        tee.on_event(SinkEvent("connected", "the card plays.", 0.2, "card"))
-        assert "no card" not in s.explain("left").text
-
-
-def test_a_game_that_listens_to_its_sink_gets_no_warning() -> None:
-    sink, events = Deviceless(), list[SinkEvent]()
-    listener = sink.on_event = events.append
-    with HapticSession(*table_with_two_phones(), CONFIG, sink=sink) as s:
-        s.update(touches=[ON_TABLE])
-        assert "no card" in s.explain("left").text
-    assert [one.kind for one in events] == ["unavailable"]
-    assert sink.on_event == listener
-
-
-def test_a_game_that_begins_to_listen_later_is_not_told_of_the_past() -> None:
-    sink, events = Deviceless(), list[SinkEvent]()
-    with HapticSession(*table_with_two_phones(), CONFIG, sink=sink) as s:
-        sink.on_event = events.append  # from now on the session knows of no event, such as that the device came
-        s.update(touches=[ON_TABLE])
-        assert "no card" not in s.explain("left").text
-    assert sink.on_event == events.append
-
-
-def test_a_session_that_takes_a_sink_over_gets_its_events() -> None:
-    sink = Deviceless()
-    old = HapticSession(*table_with_two_phones(), CONFIG, sink=sink)
-    new = HapticSession(*table_with_two_phones(), CONFIG, sink=sink)
-    old.start()
-    old.stop()
-    new.start()
-    assert "no card" in new.explain("left").text
-    new.close()
 
 
 class Journal(MemorySink):

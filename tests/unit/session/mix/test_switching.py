@@ -165,9 +165,20 @@ def test_duty_cycle_keeps_its_time_over_many_turns_and_stalls() -> None:
     made.set_source("phone", on=True)  # begins a new on-time
     for number in range(10_000):
         made.update()
-        into_turn_s = made.position / 8000 % (on_s + off_s)
+        into_turn_s = (made.position + 0.5) / 8000 % (on_s + off_s)  # it switches at the nearest frame
         assert made.source("phone").is_running == (into_turn_s < on_s), number
         made.render_s(frame_s if number % 1000 else 1.7 * on_s + 3 * off_s)
+
+
+def test_duty_cycle_switches_with_the_update_at_the_end_of_its_turn() -> None:
+    """In floating point 1.1 s are a little more than 52,800 frames."""
+    made = session({"on_s": 1.1, "off_s": 2.2}, sample_rate_hz=48_000)
+    made.update()
+    made.set_source("phone", on=True)
+    for number in range(100):
+        made.update()
+        assert made.source("phone").is_running == (number % 33 < 11), number
+        made.render(4800)
 
 
 @pytest.mark.parametrize("after_s", [0.1, 1.2])
