@@ -25,7 +25,7 @@ class Sensation:
 
     Parameters: level_db : sensation level over the threshold of touch [dB]; asked_level_db : the planned level, which
     the actuator or the head-room may not allow [dB]; target_hz : the frequency that is felt most, None if unknown [Hz];
-    own_hz : the frequency of that component in the sound, None if the converter does not tell [Hz]; rough_hz : the
+    own_hz : the frequency of that component in the sound, None if unknown [Hz]; rough_hz : the
     component that is felt as roughness, None without one [Hz].
 
     Of a melody, the note that is farthest over the threshold of touch is felt most. Nothing vibrates at the middle of
@@ -105,7 +105,7 @@ class HapticLoop:
 
     `frequency_raw_hz` is the peak of the audible loop's spectrum, which the paper uses in its attenuation law;
     `frequency_tactile_hz` is the peak of the tactile one, after conversion, that is farthest over the threshold of
-    touch, and of which `felt` tells.
+    touch; `felt.target_hz` is set to it.
     `source` is the sound before it was cut, None if unknown or for a person's own clip, which the bundle stores;
     `fingerprint` has a digest of each input of the loops, empty if unknown; `felt` is None if unknown.
     `start_up` and `wind_down` are the machine's start and stop in the recording, None if it has none.

@@ -8,12 +8,12 @@ from collections.abc import Mapping
 from scene2hap.audio.distinctness import FREQUENCY_WEBER
 from scene2hap.audio.haptic_loop import HapticLoop, LevelWarning, Sensation, level_doubt
 from scene2hap.audio.threshold import NOTICED_DB
-from scene2hap.baking.sound import Sounds
+from scene2hap.baking.sound import Sounds, in_band_hz
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.bundle.checking import vain_corrections
 from scene2hap.common.counted import counted, first_of
 from scene2hap.common.warning import warn_of
-from scene2hap.haptics import ObjectHaptics, is_unknown
+from scene2hap.haptics import ActuatorProfile, ObjectHaptics, is_unknown
 from scene2hap.scene.grouping.empty_names import names_a_place
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -57,7 +57,7 @@ def warn_of_vain_corrections(
             warn_of(doubt, BundleWarning)
 
 
-def warn_of_weak_loops(sounds: Sounds, overrides: Mapping[str, Override]) -> None:
+def warn_of_weak_loops(sounds: Sounds, overrides: Mapping[str, Override], actuator: ActuatorProfile) -> None:
     """Warn of new loops that miss their level or pitch, where a person chose the sound or the pitch.
 
     Warns: LevelWarning.
@@ -71,7 +71,7 @@ def warn_of_weak_loops(sounds: Sounds, overrides: Mapping[str, Override]) -> Non
                 continue
             doubt = ""
             if (pitch_hz := override.pitch_of(state)) is not None:
-                doubt = _pitch_doubt(name, pitch_hz, loop.felt)
+                doubt = _pitch_doubt(name, in_band_hz(pitch_hz, actuator), loop.felt)
             if not doubt and is_own:
                 doubt = level_doubt(name, loop.felt.level_db, loop.felt.asked_level_db)
             if doubt:

@@ -278,7 +278,7 @@ async def arebake(
     baked, sounds = await _make_loops(inferred, bundle.overrides, config, progress, earlier, bundle.loops)
     if on_remade is not None:
         on_remade(sounds.remade)
-    warn_of_weak_loops(sounds, bundle.overrides)
+    warn_of_weak_loops(sounds, bundle.overrides, config.actuator)
     made_with = _made_with(config) if all_have_fingerprints(sounds.loops) else None
     warn_of_vain_corrections(baked, bundle.overrides, bundle.objects)
     return replace(

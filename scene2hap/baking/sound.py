@@ -369,13 +369,18 @@ def _pitch_hz(object_id: str, state: str, overrides: Mapping[str, Override], con
         name = type(config.tactile).__name__
         warn_of(f"{limits}{name} does not move sources. Use the converter 'adaptive'.", BundleWarning)
         return None
-    played_hz = min(max(wanted_hz, actuator.min_frequency_hz), actuator.max_frequency_hz)
+    played_hz = in_band_hz(wanted_hz, actuator)
     if played_hz != wanted_hz:
         limits += (
             f"the actuator {actuator.name!r} plays {actuator.min_frequency_hz:g} to {actuator.max_frequency_hz:g} Hz"
         )
         warn_of(f"{limits}. The loop is at {played_hz:g} Hz.", BundleWarning)
     return played_hz
+
+
+def in_band_hz(wanted_hz: float, actuator: ActuatorProfile) -> float:
+    """Return the frequency nearest to a pitch that is in the actuator's band [Hz]."""
+    return min(max(wanted_hz, actuator.min_frequency_hz), actuator.max_frequency_hz)
 
 
 def _own(clip: AudioClip) -> tuple[AudioClip, Runs]:

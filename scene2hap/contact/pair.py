@@ -69,7 +69,7 @@ class BodyPair:
 
     @property
     def falling(self) -> tuple[Body, Body]:
-        """The faller and the other body."""
+        """The faller and the other body, of a pair that has a faller."""
         return (self.a, self.b) if self.faller == self.a.id else (self.b, self.a)
 
     def gap(self, within_m: float) -> Gap | None:

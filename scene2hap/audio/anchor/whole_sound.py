@@ -15,8 +15,8 @@ without lines, the strongest bands of noise. If no component within 14 dB of the
 A strongest line of 20 to 120 Hz that is not felt at its own frequency is kept as roughness, at its rate.
 
 If the pitch moves out of the band around the anchor, as that of an engine that revs, a band that holds the moving pitch
-is used (`moving_pitch`). The same rules apply to the middle of that band. Its roughness has the rate of the strongest
-line, since nothing sounds at the middle at most times; there is none if the band keeps its frequency.
+is used (`moving_pitch`). The same rules apply to the middle of that band. It has no roughness: nothing sounds at the
+middle at most times, and the strongest line is in the band, moved or not.
 
 The drive of a component is computed before any conversion, from the band around it that the adaptive converter keeps,
 B(f) = 1 / (1 + Q^2 (f / f_0 - f_0 / f)^2). This band has a sensation level and a peak. The drive of an equally felt
@@ -168,8 +168,7 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
         carried = needs.carried(loudest.hz)
         if loudest.hz > carried.felt_hz and needs.missed_db(found) - needs.missed_db(carried) > CARRIED_DB:
             found, strongest = carried, loudest
-    is_in_band = found.band_q is not None and found.carrier_hz is None
-    rough_hz = None if is_in_band else _rough_hz(strongest, found)
+    rough_hz = _rough_hz(strongest, found) if found.band_q is None else None
     return replace(found, rough_hz=rough_hz, band_db=needs.band_db(found))
 
 

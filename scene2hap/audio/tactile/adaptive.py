@@ -25,7 +25,7 @@ from scene2hap.audio.anchor.whole_sound import BAND_Q, Anchor, band_gain, reacha
 from scene2hap.audio.distinctness import FREQUENCY_WEBER
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
-from scene2hap.audio.tactile.stages import Chain, ShiftStage, Signal, SosStage, Stage, StageStream
+from scene2hap.audio.tactile.stages import Chain, InStep, ShiftStage, Signal, SosStage, Stage, StageStream
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.common import checks
 from scene2hap.errors import ConfigError
@@ -79,7 +79,8 @@ class Adaptive:
     ) -> list[Stage]:
         """Return the band-passes for a source with this own frequency, and the frequency shift if one is needed.
 
-        A shift that is `in_step` with its sound has a latency, which no live stream has time for.
+        A shift delays the band. A band that is `in_step` with its sound has a latency, for which no live stream has
+        time.
         """
         own_hz = min(own_hz, _HIGHEST * sample_rate_hz)
         target_hz = min(self._target_hz(context, own_hz), _HIGHEST * sample_rate_hz)
@@ -90,8 +91,10 @@ class Adaptive:
             half_hz = _SHIFTED * (target_hz if target_hz < own_hz / 2.0 else own_hz)
             # The mirror image of a wide band is further away, in proportion to its middle.
             high_hz = max(own_hz + half_hz, 0.5 * own_hz * (1.0 / q + (q**-2 + 4.0) ** 0.5) if context.band_q else 0.0)
-            band_hz = own_hz - half_hz, high_hz
-            stages.append(ShiftStage(*band_hz, target_hz - own_hz, sample_rate_hz, in_step=in_step))
+            shift = ShiftStage(own_hz - half_hz, high_hz, target_hz - own_hz, sample_rate_hz)
+            stages.append(shift)
+            if in_step:
+                return [InStep(Chain(stages), shift.n_late)]
         return stages
 
     def _target_hz(self, context: ConversionContext, own_hz: float) -> float:

@@ -7,7 +7,7 @@ roughness, a tick by its time. The output has two parts, a bed for the continuou
   latency. Its bed has the level of the whole sound, since the share of a band in it is unknown. On a resonant actuator
   the motion has this level, since no equalizer follows as in files.
 - If the sound's strongest component is too low to be felt as a tone (the 49 Hz of a compressor on a phone's motor),
-  that component modulates the bed: y = bed (1 + r / 2e), with its waveform r and its envelope e.
+  that component modulates the bed (`roughness`). The bed then has a narrower band, so that it is one tone.
 - If it is too high, as in a beep of 2 kHz, only its envelope is felt, on a carrier (`envelope`). A shifted band would
   lose the other notes of a melody.
 - Each short onset becomes a burst (`bursts`).
@@ -18,11 +18,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
 import scipy
 
 from scene2hap.audio.anchor.whole_sound import BAND_Q, CARRIER_RANGE_HZ, HIGHEST_PEAK_DB, best_carrier_hz, is_beep
-from scene2hap.audio.levels import drive_db, over_threshold_db, sensation_level_db
+from scene2hap.audio.levels import drive_db, sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.spectra.heard import heard_sections
 from scene2hap.audio.tactile.adaptive import Adaptive, band_around
@@ -38,10 +37,10 @@ _ROOM = 0.5
 """Gain if the bed has a given level relative to the whole sound. It leaves room for bursts, and for the first harmonic
 of a clipped sound, which may exceed the peak of the sound. The level of files and loops is set afterwards."""
 
-_SIDE_Q = 4.0
-"""Quality times detuning at which both band-passes of the bed together leave -25 dB."""
-_MOST_BED_Q = 5.0
-"""Largest Q of a bed: a narrower one would ring for 40 ms at 80 Hz."""
+_ROUGH_BED_Q = 5.0
+"""Least Q of the bed of a source with roughness. A wider band holds harmonics of the source where the side bands of its
+roughness will be. Both add up or cancel, as their phases happen to be: a side band may be felt more than the bed, and
+higher peaks lower the level. A narrower band would ring for more than 40 ms at 80 Hz."""
 
 _LIVE_DB = 0.0
 """Level of the bed of a live stream relative to the whole sound [dB]."""
@@ -63,7 +62,8 @@ class Auto(Adaptive):
             )
             stages: list[Stage] = [SosStage(above), *EnvelopeCarrier().stream(sample_rate_hz, context).stages]
         else:
-            stages = [*Adaptive(_bed_q(self.q, context), self.shift_octaves).stream(sample_rate_hz, context).stages]
+            q = self.q if context.rough_hz is None else max(self.q, _ROUGH_BED_Q)
+            stages = [*Adaptive(q, self.shift_octaves).stream(sample_rate_hz, context).stages]
         bed: Stage = Chain(stages)
         is_known = context.own_hz is not None  # the whole sound was analysed, so this is no live stream
         bed_db = context.band_db if is_known else _LIVE_DB
@@ -89,22 +89,6 @@ class Auto(Adaptive):
         if bed_db is None:
             return StageStream(*parts)
         return StageStream(*parts, Scaled(_ROOM if rendered is None else _ROOM * 10 ** (-HEADROOM_DB / 20)))
-
-
-def _bed_q(q: float, context: ConversionContext) -> float:
-    """Return the Q of the bed's band, at least q.
-
-    Harmonics of the sound lie where the side bands of the roughness will be, and both add up. Where touch is more
-    sensitive to the upper side band than to the bed, the band leaves little of them: else it would be felt more.
-    """
-    if context.own_hz is None or context.rough_hz is None:
-        return q
-    felt_hz = context.target_hz or context.own_hz
-    bed_db, side_db = over_threshold_db(np.array([felt_hz, felt_hz + context.rough_hz]), context.actuator)
-    if side_db <= bed_db:
-        return q
-    ratio = 1.0 + context.rough_hz / context.own_hz
-    return max(q, min(_SIDE_Q / (ratio - 1.0 / ratio), _MOST_BED_Q))
 
 
 def _beep_hz(context: ConversionContext) -> float | None:

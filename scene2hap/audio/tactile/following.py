@@ -22,8 +22,8 @@ that is missing, so that the rise and fall of the whole sound is felt:
 
     a = sqrt(2 E_bed (10^(lift / 10) - 10^(`MOST_LIFTED_DB` / 10)))      lift: the gain that is needed [dB]
 
-It follows from the whole window. A bed comes some 20 ms after its sound, so that a half window would begin each sound
-with the sine. The equalizer of a resonant actuator amplifies its sharp front, which would use up the head-room.
+It follows from the whole window. The filters of a bed delay it by 10 to 30 ms, so that a half window would begin each
+sound with the sine. The equalizer of a resonant actuator amplifies its sharp front, which would use up the head-room.
 """
 
 from __future__ import annotations

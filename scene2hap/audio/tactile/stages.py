@@ -96,6 +96,25 @@ class Chain(Stage):
         return left
 
 
+class InStep(Stage):
+    """A stage whose output comes some samples late, in step with its input: it holds as many samples back."""
+
+    def __init__(self, stage: Stage, n_late: int) -> None:
+        self._stage, self._n_late = stage, n_late
+        self._n_dropped = 0
+
+    def run(self, x: Signal) -> Signal:
+        """Return as many samples as given, at first fewer."""
+        y = self._stage.run(x)
+        n = min(self._n_late - self._n_dropped, len(y))
+        self._n_dropped += n
+        return y[n:]
+
+    def rest(self) -> Signal:
+        """Return the samples that were held back, as if silence followed."""
+        return self._stage.run(np.zeros(self._n_late))[self._n_late - self._n_dropped :]
+
+
 class WholeSteps(Stage):
     """Holds samples back until a step of them is complete, and returns whole steps.
 
@@ -160,10 +179,7 @@ class ShiftStage(Stage):
 
     The mirrored band lies 2 c away and is removed by h. The lower edge of the band is raised if components would end
     below 10 Hz, or fold at 0 Hz into false tones. Differences between frequencies are kept, so that beats and envelopes
-    do not change. Ratios of harmonics change.
-
-    The low-pass delays a narrow band by 10 to 40 ms. With `in_step`, the stage holds so many samples back, and returns
-    them in step with its input.
+    do not change. Ratios of harmonics change. The low-pass delays a narrow band by `n_late` samples, 10 to 40 ms.
     Source: D. K. Weaver, "A third method of generation and detection of single-sideband signals", Proc. IRE 44, 1956.
     """
 
@@ -171,9 +187,7 @@ class ShiftStage(Stage):
     _WIDEST, _NARROWEST = 0.3, 0.08
     """Bounds of the transition band of h, as shares of w. Elliptic filters of order 8 to 10 reach them."""
 
-    def __init__(
-        self, low_hz: float, high_hz: float, shift_hz: float, sample_rate_hz: float, *, in_step: bool = False
-    ) -> None:
+    def __init__(self, low_hz: float, high_hz: float, shift_hz: float, sample_rate_hz: float) -> None:
         lowest_hz = max(0.0, LOWEST_FELT_HZ - shift_hz)
         low_hz = min(max(low_hz, lowest_hz + self._NARROWEST * 0.5 * (high_hz - low_hz)), 0.99 * high_hz)
         middle_hz, width = 0.5 * (low_hz + high_hz), min(0.5 * (high_hz - low_hz), 0.45 * sample_rate_hz)
@@ -188,21 +202,16 @@ class ShiftStage(Stage):
         )
         self._state = np.zeros((len(self._sections), 2, 2))
         self._position = 0
-        self._n_late = _delay(self._sections, 2.0 * np.pi * 0.01 * width / sample_rate_hz) if in_step else 0
-        self._n_dropped = 0
+        self._slow = 2.0 * np.pi * 0.01 * width / sample_rate_hz  # [rad/sample], where the delay is as at 0 Hz
+
+    @property
+    def n_late(self) -> int:
+        """Delay of the middle of the band [samples], from the phase of the low-pass at a small frequency."""
+        _, (at_zero, near) = scipy.signal.sosfreqz(self._sections, [0.0, self._slow])
+        return round(float(-np.angle(near / at_zero)) / self._slow)
 
     def run(self, x: Signal) -> Signal:
-        """Return as many samples as given; in step, fewer at first."""
-        y = self._shifted(x)
-        n = min(self._n_late - self._n_dropped, len(y))
-        self._n_dropped += n
-        return y[n:]
-
-    def rest(self) -> Signal:
-        """Return the samples that were held back."""
-        return self._shifted(np.zeros(self._n_dropped))
-
-    def _shifted(self, x: Signal) -> Signal:
+        """Return as many samples as given."""
         if x.size == 0:
             return x
         z = through_sections(self._sections, self._down.times(x, self._position), self._state)
@@ -210,9 +219,3 @@ class ShiftStage(Stage):
         y = self._up.joined(z, self._position)
         self._position += len(x)
         return np.asarray(2.0 * y)
-
-
-def _delay(sections: Signal, angle: float) -> int:
-    """Return the delay of a low-pass at 0 Hz [samples], from its phase at a small angular frequency [rad/sample]."""
-    _, (at_zero, near) = scipy.signal.sosfreqz(sections, [0.0, angle])
-    return round(float(-np.angle(near / at_zero)) / angle)

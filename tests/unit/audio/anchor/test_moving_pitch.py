@@ -144,10 +144,10 @@ def test_a_melody_is_told_at_a_note_that_vibrates_and_sounds(neighbour_hz: float
     assert power[np.abs(f - loop.felt.target_hz) < 2.0].max() > 0.1 * power.max()
 
 
-def test_a_melody_is_rough_at_a_note_and_not_at_the_middle_of_its_notes() -> None:
-    """On a narrow actuator, which plays none of its notes, a melody of 66 and 117 Hz was rough at 88 Hz."""
+def test_a_moving_pitch_has_no_roughness() -> None:
+    """On a narrow actuator, which plays none of its notes, a melody of 66 and 117 Hz was rough at 88 Hz, then at 66."""
     hz = np.where(np.floor(T / 0.5) % 2 > 0, 66.0, 117.0)
     found = anchor_of(np.sin(2 * np.pi * np.cumsum(hz) / RATE), RATE, 20.0, actuator_profile("lra"))
     assert found is not None
     assert found.band_q is not None
-    assert min(abs(found.rough_hz - note) for note in (66.0, 117.0)) < 1.0
+    assert found.rough_hz is None

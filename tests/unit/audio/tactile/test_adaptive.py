@@ -148,3 +148,13 @@ def test_a_moved_band_is_in_step_with_its_sound(target_hz: float) -> None:
         phases.append(np.angle((envelope * np.exp(-2j * np.pi * 9.0 * t[: len(envelope)])).sum()))
     late_s = -np.angle(np.exp(1j * (phases[1] - phases[0]))) / (2 * np.pi * 9.0)
     assert abs(late_s) < 0.001
+
+
+@pytest.mark.parametrize("n", [20, 60, RATE])
+def test_a_moved_band_ends_as_if_silence_followed(n: int) -> None:
+    """A sound shorter than the latency of the shift lost its beginning, a longer one 3 dB of its last 5 ms."""
+    context = ConversionContext(own_hz=180.0, target_hz=225.0)
+    x = tones(2, f180=0.5)[:n]
+    stream, longer = (Adaptive().stream(RATE, context) for _ in range(2))
+    y = np.concatenate([stream.process(x), stream.finish()])
+    np.testing.assert_array_equal(y, longer.process(np.pad(x, (0, RATE)))[:n])
