@@ -25,8 +25,8 @@ class Sensation:
 
     Parameters: level_db : sensation level over the threshold of touch [dB]; asked_level_db : the planned level, which
     the actuator or the head-room may not allow [dB]; target_hz : the frequency that is felt most, None if unknown [Hz];
-    own_hz : the frequency of that component in the sound, None if unknown [Hz]; rough_hz : the
-    component that is felt as roughness, None without one [Hz].
+    own_hz : the frequency of that component in the sound, None if unknown [Hz]; rough_hz : the component that is felt
+    as roughness, None without one [Hz].
 
     Of a melody, the note that is farthest over the threshold of touch is felt most. Nothing vibrates at the middle of
     its notes, around which the converter keeps a band. Only if the notes are beeps, which share one felt frequency,

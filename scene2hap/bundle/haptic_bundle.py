@@ -92,9 +92,9 @@ class HapticBundle(BundleContents):
         """Correct one object, in addition to earlier corrections. Returns a new bundle. None leaves a field unchanged.
 
         A name says what the object is, such as "washing machine": `rebake` infers the object by it. A clip, or the
-        path of one, keeps its own frequency; `keep=False` allows moving it away from the scene's other
-        sources. Intensity, pitch and the times of start and stop are numbers for all states, or mappings by state.
-        `state` is the state at the start. Corrections are kept in the folder and by `rebake`. Level, material, mass,
+        path of one, keeps its own frequency; `keep=False` allows moving it away from the scene's other sources.
+        Intensity, pitch and the times of start and stop are numbers for all states, or mappings by state. `state` is
+        the state at the start. Corrections are kept in the folder and by `rebake`. Level, material, mass,
         thickness of the main surface, feet, times, first state, mute and silence take effect at once. The others, and
         vibration of an object that was inferred silent, need `rebake(bundle)`, which makes the loops. The loops of a
         locked object stay unchanged, byte for byte; a correction that would change them is rejected.
