@@ -287,7 +287,7 @@ async def arebake(
 
 
 def _give_report(report: InferenceReport, on_report: OnReport | None) -> None:
-    """Pass the report to the caller. Warns of its errors if nobody takes it: an object without an answer is silent."""
+    """Pass the report to the caller's function. Without one, warn of the errors: objects without answers are silent."""
     if on_report is not None:
         on_report(report)
     else:

@@ -94,8 +94,8 @@ def soft_limit(mix: NDArray[np.float32]) -> NDArray[np.float32]:
 def soft_limit_sum(mix: NDArray[np.float32], total: NDArray[np.float32]) -> NDArray[np.float32]:
     """Return the sum of a limited mix and more signals within [-1, 1]; float32, `mix` and `total` of one shape.
 
-    The curve begins at the mix itself where that exceeds -3 dB, so that a mix to which nothing is added stays as it is.
-    If it passed the curve again, each impact would begin and end with a step, also at hands that do not feel it.
+    The curve begins at -3 dB, or at the level of the mix where the mix is louder. A mix without additions is therefore
+    unchanged. A second pass of the whole curve would begin and end each impact with a step, at all hands.
     """
     size = np.abs(total)
     if not total.size or np.maximum.reduce(size, axis=None) <= THRESHOLD:

@@ -190,7 +190,7 @@ sink = WavSink({str(tmp_path / f"take.{suffix}")!r})
 sink.open(SinkFormat(48_000, ("left", "right", "tip")))
 sink.start(lambda n: np.full((n, 3), (0.5, -0.25, 0.125), np.float32))
 sink.pull(5000)
-os._exit(9)  # like kill -9: nothing is closed
+os._exit(9)  # ends as by kill -9, without closing any file
 """
     assert subprocess.run([sys.executable, "-c", dies], timeout=60).returncode == 9
     (draft,) = tmp_path.iterdir()
