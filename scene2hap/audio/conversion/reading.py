@@ -21,6 +21,7 @@ from scene2hap.errors import AudioError
 
 BLOCK_FRAMES = 65_536
 _OFFSET_FRAMES = 65_536
+_BEGINNING_S = 0.05
 _MIDDLE_S = 10.0
 """Length of the part of a file that is analysed before the conversion [s]."""
 _SLOWEST_HZ = 1.0
@@ -120,12 +121,20 @@ class SoundReader:
         return peak if peak <= MAX_SAMPLE else 0.0
 
     def _first_offsets(self) -> NDArray[np.float64]:
-        """Return the offset of each channel at the beginning of the file."""
+        """Return the offset of each channel at the beginning of the file.
+
+        The mean of its first milliseconds counts where it differs from that of the first second by more than the
+        samples vary: the recording was faded in together with its offset.
+        """
         head = next(self._parts(_OFFSET_FRAMES), None)
         if head is None or not np.isfinite(head).all():  # the conversion raises an error for this
             return np.zeros(self.channels)
-        offsets: NDArray[np.float64] = self._mixed(head).mean(axis=0, dtype=np.float64)
-        return offsets
+        channels = self._mixed(head)
+        beginning = channels[: round(_BEGINNING_S * self.rate)]
+        offsets, own = (x.mean(axis=0, dtype=np.float64) for x in (channels, beginning))
+        is_faded = np.abs(own - offsets) > beginning.std(axis=0, dtype=np.float64)
+        first: NDArray[np.float64] = np.where(is_faded, own, offsets)
+        return first
 
     @cached_property
     def _whole(self) -> Block | None:

@@ -452,6 +452,15 @@ def test_constant_offset_causes_no_thump_at_the_start(tmp_path: Path) -> None:
     np.testing.assert_allclose(levelled[1], levelled[0], atol=0.01)
 
 
+def test_an_offset_that_was_faded_in_causes_no_thump_at_the_start(tmp_path: Path) -> None:
+    """A hum that begins at nothing is felt from nothing on, also if its recording had an offset before the fade."""
+    fade_in = np.minimum(np.arange(6 * RATE) / (0.3 * RATE), 1.0)
+    faded = (sound(6.0, 1, 150.0)[:, 0] * 0.3 + 0.1) * fade_in
+    felt = felt_of(tmp_path, faded, converter="svf_bandpass")[0]
+    first, later = felt[: RATE // 50], felt[RATE:]
+    assert np.abs(first).max() < 0.1 * np.abs(later).max()
+
+
 def test_conversion_reports_the_reached_level_and_its_limit(tmp_path: Path) -> None:
     source = write(tmp_path / "a.wav", sound(4.0, 1, 150.0))
     made = audio.convert(source, tmp_path / "b.wav", converter="svf_bandpass", intensity=0.3)
