@@ -136,6 +136,19 @@ def test_a_program_that_ends_fades_out_on_the_card(server: SoundServer, last_lin
 
 def test_a_program_that_was_stopped_fades_in_again(server: SoundServer) -> None:
     """As after the sleep of a machine: without a fade, the sound begins with -10 to -6 dB above 1 kHz."""
+    # The server of a busy machine may have a gap of its own beside the one that is judged, though not in each of three
+    # takes. A player without a fade never gives a good one.
+    for _ in range(3):
+        level_db, n_gaps = stopped_and_continued(server)
+        if level_db < -40.0:
+            break
+    assert level_db < -40.0
+    assert 1 <= n_gaps < 10  # counted once, not for each of 60 blocks; a busy machine adds some of its own
+
+
+def stopped_and_continued(server: SoundServer) -> tuple[float, int]:
+    """Stop a program that plays for 0.6 s. Returns the level above 1 kHz where it goes on [dB re the peak], and the
+    number of gaps that its sink counts."""
     recorder = server.record()
     program = [sys.executable, "-c", program_that_plays(2.2, "print(sink.stats.underruns)")]
     with subprocess.Popen(program, stdout=subprocess.PIPE, text=True) as player:
@@ -151,9 +164,7 @@ def test_a_program_that_was_stopped_fades_in_again(server: SoundServer) -> None:
     loud = np.flatnonzero(np.abs(heard).max(axis=1) > 1e-6)
     begin = int(loud[1:][np.diff(loud) > RATE // 5][-1])
     high = sosfiltfilt(butter(6, 1000.0, "highpass", fs=RATE, output="sos"), heard[begin - RATE // 10 :], axis=0)
-    level_db = 20 * np.log10(np.abs(high[: RATE // 5]).max() / np.abs(heard).max())
-    assert level_db < -40.0
-    assert 1 <= n_gaps < 10  # counted once, not for each of 60 blocks; a busy machine adds some of its own
+    return 20 * float(np.log10(np.abs(high[: RATE // 5]).max() / np.abs(heard).max())), n_gaps
 
 
 def test_unplugged_sound_card_is_reconnected(server: SoundServer) -> None:
