@@ -87,6 +87,11 @@ class LevelWarning(UserWarning):
     """A vibration is felt weaker than planned for its intensity, or not at the pitch that a person gave it."""
 
 
+def level_of(level_db: float, asked_level_db: float) -> str:
+    """Return a felt level as text, with the planned one if a person would notice the difference: "17 of 22"."""
+    return f"{level_db:.0f}" + (f" of {asked_level_db:.0f}" if asked_level_db - level_db >= NOTICED_DB else "")
+
+
 def level_doubt(name: str, level_db: float, asked_level_db: float) -> str:
     """Return the sentence that says by how much the planned level is missed; empty within `NOTICED_DB`."""
     missing_db = asked_level_db - level_db

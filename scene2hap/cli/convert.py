@@ -17,6 +17,7 @@ from typing import Any
 from scene2hap.audio.actuators import ACTUATORS
 from scene2hap.audio.conversion import FORMATS, Conversion, Failure, convert_files
 from scene2hap.audio.files import READABLE
+from scene2hap.audio.haptic_loop import level_of
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.cli.console import Console
 from scene2hap.cli.given_spec import given_spec
@@ -47,7 +48,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"one of {', '.join(ACTUATORS)}, or a CSV file of its response in Hz and dB",
     )
     parser.add_argument(
-        "--intensity", type=float, default=1.0, metavar="0..1", help="of the source, above 0, default 1"
+        "--intensity",
+        type=float,
+        default=1.0,
+        metavar="0..1",
+        help="of the source, above 0; default 1, as strong as each sound and the actuator allow",
     )
     parser.add_argument(
         "--format", choices=[suffix[1:] for suffix in FORMATS], default="wav", help="of files in a folder, default wav"
@@ -125,7 +130,7 @@ def _show(console: Console, made: list[Conversion]) -> None:
                 f"{one.duration_s:.2f}",
                 _decibels(one.peak_in),
                 _decibels(one.peak_out),
-                _level(one.level_db),
+                _level(one),
                 _hertz(one.frequency_in_hz),
                 _hertz(one.frequency_out_hz),
                 f"{one.duration_s / one.elapsed_s:.0f}",
@@ -143,8 +148,8 @@ def _decibels(peak: float) -> str:
     return f"{20 * math.log10(peak):.1f}" if peak > 0.0 else "silent"
 
 
-def _level(level_db: float | None) -> str:
-    return "-" if level_db is None else f"{level_db:.1f}"
+def _level(one: Conversion) -> str:
+    return "-" if one.level_db is None or one.asked_level_db is None else level_of(one.level_db, one.asked_level_db)
 
 
 def _hertz(frequency: float | None) -> str:

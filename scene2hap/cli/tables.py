@@ -6,8 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from scene2hap.audio.haptic_loop import HapticLoop, Sensation
-from scene2hap.audio.threshold import NOTICED_DB
+from scene2hap.audio.haptic_loop import HapticLoop, Sensation, level_of
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.edited_loops import is_edited
 from scene2hap.cli.console import Console
@@ -167,11 +166,7 @@ def times_of(state: SourceState, loop: HapticLoop | None) -> str:
 
 
 def _level(felt: Sensation | None) -> str:
-    """Format the felt level. Adds the requested level if a person would notice the difference."""
-    if felt is None:
-        return "?"
-    missed = felt.asked_level_db - felt.level_db >= NOTICED_DB
-    return f"{felt.level_db:.0f}" + (f" of {felt.asked_level_db:.0f}" if missed else "")
+    return "?" if felt is None else level_of(felt.level_db, felt.asked_level_db)
 
 
 def show_report(console: Console, report: InferenceReport, prices: Mapping[str, Given] | None = None) -> None:

@@ -25,7 +25,7 @@ from scene2hap.audio.conversion.reading import SoundReader
 from scene2hap.audio.conversion.writing import FORMATS, check_target, opened_for_writing, write_blocks
 from scene2hap.audio.files import Mixdown, opened_sound, written_whole
 from scene2hap.audio.haptic_loop import LevelWarning, Sensation, level_doubt
-from scene2hap.audio.levels import FAINTEST_PEAK_DB, sensation_level_db
+from scene2hap.audio.levels import FAINTEST_PEAK_DB, FULL_LEVEL_DB, sensation_level_db
 from scene2hap.audio.loop_marks import is_marked_whole, with_loop
 from scene2hap.audio.protocol import (
     ConversionContext,
@@ -76,10 +76,12 @@ class Conversion:
     @property
     def level_doubt(self) -> str:
         """The sentence that says by how much the planned level is missed, or why it was not set; empty within
-        `NOTICED_DB`, for `raw` and for digital silence."""
+        `NOTICED_DB`, for an intensity of 1, for `raw` and for digital silence."""
         if self.asked_level_db is None or self.peak_in == 0.0:
             return ""
         if self.level_db is not None:
+            if self.asked_level_db == FULL_LEVEL_DB:  # as strong as possible, and so it is
+                return ""
             return level_doubt(str(self.output), self.level_db, self.asked_level_db)
         if self.peak_in < 10 ** (FAINTEST_PEAK_DB / 20):
             return (
@@ -113,14 +115,16 @@ def convert(
     output : its suffix (`FORMATS`) chooses the format.
     converter : a kind, a mapping with a `kind` and its settings, or an instance; each channel gets its own stream.
     actuator : a profile, its name, or a CSV file of its response, which is compensated; intensity : of the source,
-    above 0, up to 1 [-], which sets the sensation level (`sensation_level_db`).
+    above 0 [-], which sets the sensation level (`sensation_level_db`); 1 is as strong as the sound and the actuator
+    allow, up to 31 dB.
     mono : mix the channels by their mean first, or take the strongest if they cancel each other; overwrite : replace
     files that exist.
     picture : a PNG to draw: spectrograms before and after, and both envelopes; raw : apply the converter alone, without
     removal of the offset, equalization and scaling.
     loop : the sound is a loop of 0.1 to 60 s, and so is the result, which a WAV marks (chunk "smpl"); None if a WAV
     marks all of itself as one. Otherwise the last 10 ms fade out.
-    Warns: LevelWarning: the planned level is missed by more than `NOTICED_DB`, or nothing of the sound is felt.
+    Warns: LevelWarning: the level of an intensity below 1 is missed by more than `NOTICED_DB`, or nothing of the sound
+    is felt.
     Raises: ConfigError: settings that cannot work. AudioError: `source` cannot be read, holds a sample that is not
     finite, or is too short or long for a loop; `output` exists or cannot be written; or the converter changes the
     length.

@@ -504,15 +504,19 @@ def test_a_missed_level_warns(tmp_path: Path) -> None:
     clicks[RATE] = 1.0
     source = write(tmp_path / "a.wav", clicks)
     with pytest.warns(audio.conversion.LevelWarning, match=r"b\.wav is felt \d+ dB weaker than planned"):
-        made = audio.convert(source, tmp_path / "b.wav")
+        made = audio.convert(source, tmp_path / "b.wav", intensity=0.5)
     assert made.level_doubt
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         faint = audio.convert(write(tmp_path / "c.wav", sound(1.0, 1, 150.0)), tmp_path / "d.wav", intensity=0.3)
-        (many,) = audio.convert_files([source], tmp_path / "e.wav")
+        (many,) = audio.convert_files([source], tmp_path / "e.wav", intensity=0.5)
+        strongest = audio.convert(source, tmp_path / "f.wav")
     assert faint.level_doubt == ""
     assert isinstance(many, audio.conversion.Conversion)
     assert many.level_doubt
+    assert strongest.level_db is not None
+    assert strongest.level_db < sensation_level_db(1.0) - 10.0
+    assert strongest.level_doubt == ""
 
 
 def test_component_that_was_chosen_is_felt_however_weak_it_is(tmp_path: Path) -> None:
