@@ -25,10 +25,12 @@ from typing import Any
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.sounds import file_stems
-from scene2hap.cli.bake import add_scene_arguments, read_scene
+from scene2hap.cli.bake import SCENE_ARGUMENTS, add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
+from scene2hap.cli.shared_options import reject_unused
 from scene2hap.cli.tables import bundle_outcome, scene_outcome, show_bundle, show_scene
 from scene2hap.common.counted import counted
+from scene2hap.common.printable import quoted
 from scene2hap.common.text_files import write_whole
 from scene2hap.errors import SceneError, unwritable
 from scene2hap.scene.capture import capture_images, contact_sheet, plan_view, render_all
@@ -45,6 +47,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Show a folder as a bundle, and any other path as a scene."""
     if os.path.isdir(arguments.scene):
+        reject_unused(
+            arguments, SCENE_ARGUMENTS, f"{quoted(arguments.scene)} is a bundle. Bake its scene file again with it."
+        )
         bundle = HapticBundle.load(arguments.scene)
         scene = bundle.snapshot
         outcome = {**scene_outcome(scene), **bundle_outcome(bundle)}
