@@ -2,6 +2,7 @@
 
 The first table has the dominant surface of each object: its length, width and thickness, and the height of the object's
 lowest point above that of the scene. "measured" is "well", or the reason to look at a size again.
+"thickness corrected" marks a thickness that a person has corrected in a bundle.
 
 The table of a bundle has the inferred values. "sound Hz" is the strongest frequency of the sound, "vibration Hz" the
 frequency at which the vibration is felt most, of a melody one of its notes: "80 from 98" was moved from 98 Hz, "rough
@@ -53,7 +54,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         bundle = HapticBundle.load(arguments.scene)
         scene = bundle.snapshot
         outcome = {**scene_outcome(scene), **bundle_outcome(bundle)}
-        show_scene(console, scene)
+        show_scene(console, scene, bundle.overrides)
         show_bundle(console, bundle)
     else:
         scene = read_scene(arguments)

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -309,6 +310,25 @@ def test_an_edit_says_what_changed(kitchen: Callable[..., Path], capsys: pytest.
     said = capsys.readouterr().out
     assert "fan, pitch: - -> 200 Hz" in said
     assert "its place among the sources" in said
+
+
+def test_inspect_shows_a_corrected_thickness_as_corrected(fan: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    def row() -> list[str]:
+        capsys.readouterr()
+        assert main(["inspect", str(fan)]) == 0
+        rows = [line.split("│") for line in capsys.readouterr().out.splitlines() if line.startswith("│ fan ")]
+        return [cell.strip() for cell in rows[0]]
+
+    before = row()
+    assert main(["edit", str(fan), "thickness", "fan", "0.042"]) == 0
+    after = row()
+    changed = [(one, other) for one, other in zip(before, after, strict=True) if one != other]
+    assert len(changed) == 2
+    assert changed[0][1] == "0.042"
+    assert changed[1] == ("well", "thickness corrected")
+    told: Any = outcome(capsys, "inspect", str(fan), "--json")["objects"]
+    assert told["fan"]["size_m"][2] == 0.042
+    assert told["fan"]["corrected"] == ["thickness_m"]
 
 
 def test_an_edit_without_effect_can_still_be_followed_by_undo(fan: Path, capsys: pytest.CaptureFixture[str]) -> None:
