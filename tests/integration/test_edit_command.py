@@ -25,6 +25,7 @@ from scene2hap.cli.console import Console
 from scene2hap.cli.play import silence
 from scene2hap.errors import BadAnswer
 from scene2hap.llm.lexicon.backend import LexiconBackend
+from scene2hap.materials import Material
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.session import HapticSession, Touch
 
@@ -153,6 +154,23 @@ def test_wrong_id_or_material_keeps_the_bundle_unchanged(fan: Path, capsys: pyte
         assert main(["edit", str(folder), *words]) == 1
         assert words[1 if words[0] == "gain" else 2] in capsys.readouterr().err
     assert (folder / "bundle.json").stat().st_ino == before
+
+
+def test_a_material_that_no_table_has_is_given_by_its_constants(
+    fan: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    constants = {"name": "my abs", "density_kg_m3": 1111, "youngs_modulus_pa": 2.2e9, "poisson_ratio": 0.33}
+    assert main(["edit", str(fan), "material", "fan", "my abs"]) == 1
+    assert f"a Material of your own: {', '.join(constants)}, loss_factor." in capsys.readouterr().err
+    assert main(["edit", str(fan), "material", "fan", json.dumps(constants)[:-1]]) == 1
+    assert "which is no JSON" in capsys.readouterr().err
+    own = Material("my abs", 1111.0, 2.2e9, 0.33)
+    assert main(["edit", str(fan), "material", "fan", json.dumps(constants)]) == 0
+    assert HapticBundle.load(fan).objects["fan"].material == own
+    corrections = {"format": "scene2hap/overrides", "version": 1, "overrides": {"fan": {"feet": constants}}}
+    (tmp_path / "c.json").write_text(json.dumps(corrections))
+    assert main(["edit", str(fan), "apply", str(tmp_path / "c.json")]) == 0
+    assert HapticBundle.load(fan).objects["fan"].feet == own
 
 
 def test_a_locked_loop_stays_byte_for_byte(
