@@ -158,6 +158,8 @@ def bake_settings(arguments: argparse.Namespace) -> dict[str, Any]:
 
 
 def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console, *, pictures: bool) -> dict[str, Any]:
+    if arguments.output is not None:
+        require_replaceable(Path(arguments.output))  # as before a bake
     scene = read_scene(arguments)
     if pictures:
         scene = capture_images(scene)

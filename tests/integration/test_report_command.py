@@ -70,6 +70,24 @@ def test_dry_run_sends_no_request_and_writes_nothing(tmp_path: Path, capsys: pyt
     assert not any(cache.glob("*"))
 
 
+def test_dry_run_finds_that_the_output_cannot_be_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "notes.txt").write_text("mine")
+    others = tmp_path / "others.bundle"
+    others.mkdir()
+    (others / "notes.txt").write_text("mine")
+    scene = str(kitchen_path())
+    for place in (tmp_path / "notes.txt", others):
+        assert main(["bake", scene, "--dry-run", "-o", str(place)]) == 1
+        told = capsys.readouterr()
+        assert f"{place} is not" in told.err
+        assert not told.out
+    others.rename(tmp_path / "kitchen.bundle")
+    assert main(["bake-many", scene, "--dry-run", "-o", str(tmp_path), "--json"]) == 1
+    told = capsys.readouterr()
+    assert [one["plan"] for one in json.loads(told.out)["scenes"]] == ["fail"]
+    assert "kitchen.bundle is not empty and not a bundle" in told.err
+
+
 def test_cost_of_a_model_without_price_is_unknown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     address = ["--llm", "local:nobody", "--base-url", "http://127.0.0.1:9/v1", "--cache", str(tmp_path)]
     assert main(["bake", str(kitchen_path()), "--dry-run", "--no-pictures", "--json", *address]) == 0
