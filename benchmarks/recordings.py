@@ -12,7 +12,8 @@ The measure depends on the kind of sound:
   reach: above 100 Hz, too fast for modulation, and a sine of it would miss the level by more than 3 dB;
 - *events*, if there are any: number of onsets of the sound that are also onsets of the vibration, within 30 ms. At an
   onset the energy in 5 ms is 12 dB above the median of the 50 ms before, and above -30 dB re its peak.
-These statistics are independent of the converters' own. Without arguments the recordings beside the project are used.
+These statistics are independent of the converters' own. Sounds of less than 0.2 s have no range of levels, and silent
+ones no level: they are listed without a measure. Without arguments the recordings beside the project are used.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.haptics import ActuatorProfile
 
-INTENSITY, VARIES_DB = 0.3, 6.0
+INTENSITY, VARIES_DB, LEAST_S = 0.3, 6.0, 0.2
 LINE_DB, LEVEL_JND_DB, LEAST_DEPTH = 15.0, 2.5, 0.2
 Signal = NDArray[np.float64]
 
@@ -157,6 +158,9 @@ def main() -> None:
     for path in paths:
         clip = read_clip(path)
         x = clip.samples - clip.samples.mean()
+        if clip.duration_s < LEAST_S or not x.any():
+            print(f"| {path.stem} | {'silent' if not x.any() else 'too short'} | {' | '.join('-' for _ in kinds)} |")
+            continue
         clip = AudioClip((0.9 * x / np.abs(x).max()).astype(np.float32), clip.sample_rate_hz)
         varies = range_db(levels_db(clip.samples.astype(np.float64), clip.sample_rate_hz, 0.1)) > VARIES_DB
         cells = [judged(clip, kind, given.actuator) for kind in kinds]

@@ -45,7 +45,7 @@ from scene2hap.common import checks
 from scene2hap.common.file_stamp import Stamp
 from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2HapError, SceneError, unwritable
 from scene2hap.haptics import ObjectHaptics
-from scene2hap.materials import Material, lookup
+from scene2hap.materials import lookup
 from scene2hap.scene import json as scene_json
 from scene2hap.scene.ply import decode_ply, encode_ply
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -339,9 +339,6 @@ def _override(folder: Path, row: object) -> Override:
             near = checks.did_you_mean(name, known, f"They are {', '.join(known)}.")
             raise BundleError(f"there is no field {checks.shown(name)}. {near}")
     given = dict(row)
-    for name in ("material", "feet"):
-        if isinstance(given.get(name), dict):
-            given[name] = Material(**given[name])
     clip = given.get("clip")
     if clip is not None:
         if not isinstance(clip, dict):

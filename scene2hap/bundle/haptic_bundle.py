@@ -75,7 +75,7 @@ class HapticBundle(BundleContents):
         name: str | None = None,
         vibrates: bool | None = None,
         gain_db: float | None = None,
-        material: Material | str | None = None,
+        material: Material | Mapping[str, Any] | str | None = None,
         clip: AudioClip | HapticClip | str | os.PathLike[str] | None = None,
         keep: bool | None = None,
         locked: bool | None = None,
@@ -85,7 +85,7 @@ class HapticBundle(BundleContents):
         muted: bool | None = None,
         mass_kg: float | None = None,
         thickness_m: float | None = None,
-        feet: Material | str | None = None,
+        feet: Material | Mapping[str, Any] | str | None = None,
         start_up_s: float | Mapping[str, float] | None = None,
         wind_down_s: float | Mapping[str, float] | None = None,
     ) -> Self:

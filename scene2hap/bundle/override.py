@@ -13,7 +13,7 @@ from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.clips.reading import as_vibration, read_any_clip
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
-from scene2hap.errors import BundleError
+from scene2hap.errors import BundleError, CallError
 from scene2hap.haptics import LONGEST_PASSAGE_S, ObjectHaptics, SourceState, checked_mass_kg
 from scene2hap.materials import Material, lookup
 from scene2hap.scene.surface.plate_sizes import THINNEST_M, with_thickness
@@ -57,9 +57,9 @@ class Override:
     mass_kg : mass of the whole object [kg].
     thickness_m : thickness of its main surface, such as the sheet of a cabinet that was measured as a solid block,
         2e-5..10 [m]. `HapticBundle.override` also checks it against the measured size.
-    feet : the material of its feet, or a name in the table.
+    feet : the material of its feet, in the same forms.
     name : what it is, such as "washing machine". Inference reads this instead of the authored name.
-    material : its material, or a name in the table.
+    material : its material, the constants of one by name, or a name in the table.
     clip : the sound from which its vibration is made, in every state, or the path of its file. A haptic clip (.haptic,
         .ahap) is played unchanged. keep : True if that sound keeps its own frequency and level; the scene's other
         sources are then moved away from it, in frequency and level.
@@ -119,9 +119,12 @@ class Override:
             given = getattr(self, name)
             if isinstance(given, str):
                 object.__setattr__(self, name, lookup(given))
+            elif isinstance(given, Mapping):
+                object.__setattr__(self, name, _of_constants(name, given))
             elif given is not None and not isinstance(given, Material):
                 raise BundleError(
-                    f"{name} is {checks.represented(given)}; it must be a Material or a name in the table."
+                    f"{name} is {checks.represented(given)}; it must be a Material, its constants, or a name in the "
+                    "table."
                 )
         if isinstance(self.clip, str | os.PathLike):
             object.__setattr__(self, "clip", read_any_clip(self.clip))
@@ -186,6 +189,17 @@ class Override:
         given: Mapping[str, float] = getattr(self, name)
         changes: dict[str, Any] = {name: given.get(state.name, given.get(ANY_STATE))}
         return state if changes[name] is None else replace(state, **changes)
+
+
+def _of_constants(name: str, constants: Mapping[str, Any]) -> Material:
+    try:
+        return Material(**constants)
+    except CallError as cause:
+        known = ", ".join(one.name for one in fields(Material))
+        raise BundleError(
+            f"{name} has {', '.join(map(str, constants)) or 'no field'}; the fields of a material are {known}. Only "
+            "loss_factor may be left out."
+        ) from cause
 
 
 def _by_state(name: str, value: object) -> dict[str, float]:

@@ -46,6 +46,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_scene_arguments(parser)
 
 
+SCENE_ARGUMENTS = ("unit_m", "assets_root", "names", "up_axis", "group")
+"""See `add_scene_arguments`."""
+
+
 def add_model_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments that choose the model, its pictures and the sound sources."""
     add_backend_arguments(parser)
@@ -72,7 +76,6 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--up-axis", choices=("y", "z"), help="y or z, overriding the axis of the file's format")
     parser.add_argument(
         "--group",
-        default="authored",
         metavar="RULE",
         help="authored (default), leaf, loose, or a depth in the node tree (0: one object)",
     )
@@ -85,11 +88,12 @@ def read_scene(arguments: argparse.Namespace) -> SceneSnapshot:
 
 def scene_options(arguments: argparse.Namespace) -> dict[str, Any]:
     """Return the arguments of `load_scene` except the path."""
-    is_depth = arguments.group.isascii() and arguments.group.isdigit() and len(arguments.group) < 10
+    group = arguments.group or "authored"
+    is_depth = group.isascii() and group.isdigit() and len(group) < 10
     return {
         "up_axis": arguments.up_axis,
         "unit_m": arguments.unit_m,
-        "group": int(arguments.group) if is_depth else arguments.group,
+        "group": int(group) if is_depth else group,
         "assets_root": arguments.assets_root,
         **({"names": arguments.names} if arguments.names else {}),
     }
@@ -154,6 +158,8 @@ def bake_settings(arguments: argparse.Namespace) -> dict[str, Any]:
 
 
 def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console, *, pictures: bool) -> dict[str, Any]:
+    if arguments.output is not None:
+        require_replaceable(Path(arguments.output))  # as before a bake
     scene = read_scene(arguments)
     if pictures:
         scene = capture_images(scene)

@@ -28,6 +28,9 @@ scene2hap edit kitchen.bundle diff other.bundle
 
 A named object, and one that is made to vibrate, is inferred again by the lexicon, or by the model of `--llm`. A bundle
 has the names of its objects but no pictures, so the model reads the names alone.
+
+A material of your own is given by its constants, as JSON:
+'{"name": "my oak", "density_kg_m3": 690, "youngs_modulus_pa": 1.1e10, "poisson_ratio": 0.35, "loss_factor": 0.01}'.
 """
 
 from __future__ import annotations
@@ -49,6 +52,7 @@ from scene2hap.bundle.folder import write_both, write_edited
 from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
 from scene2hap.bundle.history import MOST_STEPS, Kind, pop, step_beside, steps_beside, warned_of_steps
 from scene2hap.cli.console import Console, Tell
+from scene2hap.cli.given_spec import given_spec
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import show_report
 from scene2hap.common.counted import counted
@@ -129,13 +133,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     for added in (intensity, pitch, start, stop):
         added.add_argument("--state", dest="only", metavar="NAME", help="change only this state; default: all states")
     material = verb("material", "set the material of an object", _overridden)
-    material.add_argument("material", metavar="NAME", help="a name in the table, see `scene2hap list materials`")
+    material.add_argument(
+        "material",
+        metavar="NAME",
+        help="a name in the table, see `scene2hap list materials`, or JSON, see `scene2hap edit --help`",
+    )
     mass = verb("mass", "set the mass of a whole object", _overridden)
     mass.add_argument("mass_kg", metavar="KG", type=float)
     thickness = verb("thickness", "set the thickness of an object's main surface", _overridden)
     thickness.add_argument("thickness_m", metavar="M", type=float, help="in metres; 0.001 is a sheet of 1 mm")
     feet = verb("feet", "set the material of an object's feet", _overridden)
-    feet.add_argument("feet", metavar="NAME", help="a name in the table, such as rubber or felt")
+    feet.add_argument("feet", metavar="NAME", help="a name in the table, such as rubber or felt, or JSON")
     sound = verb("sound", "make the vibration of an object from your own sound, in every state", _remade)
     sound.add_argument(
         "clip",
@@ -307,6 +315,8 @@ def interrupted() -> Iterator[threading.Event]:
 def _overridden(bundle: HapticBundle, remaking: Rebake) -> HapticBundle:
     arguments = remaking.arguments
     changes = {one.name: getattr(arguments, one.name) for one in fields(Override) if one.name in arguments}
+    for name in {"material", "feet"} & changes.keys():
+        changes[name] = given_spec(name, changes[name])
     if getattr(arguments, "only", None) is not None:
         changes = {name: {arguments.only: value} for name, value in changes.items()}
     return bundle.override(arguments.id, **changes)

@@ -1,4 +1,4 @@
-"""A part of the library that an option names: by its kind, or by a JSON object with the kind and its settings."""
+"""What an option names: a part of the library by its kind, a material by its name, or either by a JSON object."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from scene2hap.errors import ConfigError
 
 
 def given_spec(option: str, text: str) -> object:
-    """Return a kind, or a mapping with a kind and its settings, written as JSON. Raises: ConfigError: invalid JSON."""
+    """Return a name, or the mapping that a JSON object gives. Raises: ConfigError: invalid JSON."""
     if not text.lstrip().startswith("{"):
         return text
     try:
         return parse_json(text)
     except (ValueError, RecursionError) as cause:
-        raise ConfigError(f"{option} is {text!r}, which is no JSON ({cause}). Give a kind, or an object.") from cause
+        raise ConfigError(f"{option} is {text!r}, which is no JSON ({cause}). Give a name, or an object.") from cause

@@ -2,6 +2,7 @@
 
 The first table has the dominant surface of each object: its length, width and thickness, and the height of the object's
 lowest point above that of the scene. "measured" is "well", or the reason to look at a size again.
+"thickness corrected" marks a thickness that a person has corrected in a bundle.
 
 The table of a bundle has the inferred values. "sound Hz" is the strongest frequency of the sound, "vibration Hz" the
 frequency at which the vibration is felt most, of a melody one of its notes: "80 from 98" was moved from 98 Hz, "rough
@@ -25,10 +26,12 @@ from typing import Any
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.sounds import file_stems
-from scene2hap.cli.bake import add_scene_arguments, read_scene
+from scene2hap.cli.bake import SCENE_ARGUMENTS, add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
+from scene2hap.cli.shared_options import reject_unused
 from scene2hap.cli.tables import bundle_outcome, scene_outcome, show_bundle, show_scene
 from scene2hap.common.counted import counted
+from scene2hap.common.printable import quoted
 from scene2hap.common.text_files import write_whole
 from scene2hap.errors import SceneError, unwritable
 from scene2hap.scene.capture import capture_images, contact_sheet, plan_view, render_all
@@ -45,10 +48,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Show a folder as a bundle, and any other path as a scene."""
     if os.path.isdir(arguments.scene):
+        reject_unused(
+            arguments, SCENE_ARGUMENTS, f"{quoted(arguments.scene)} is a bundle. Bake its scene file again with it."
+        )
         bundle = HapticBundle.load(arguments.scene)
         scene = bundle.snapshot
         outcome = {**scene_outcome(scene), **bundle_outcome(bundle)}
-        show_scene(console, scene)
+        show_scene(console, scene, bundle.overrides)
         show_bundle(console, bundle)
     else:
         scene = read_scene(arguments)

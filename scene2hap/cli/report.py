@@ -20,8 +20,9 @@ from typing import Any
 
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
-from scene2hap.cli.bake import add_scene_arguments, read_scene
+from scene2hap.cli.bake import SCENE_ARGUMENTS, add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
+from scene2hap.cli.shared_options import reject_unused
 from scene2hap.errors import BundleError
 from scene2hap.haptics import SourceState
 
@@ -34,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("objects", metavar="OBJECT", nargs="*", help="ids of objects; default: all that vibrate")
     parser.add_argument("-o", "--output", metavar="FILE", help="write a page of the scene (.html), or its data (.json)")
     parser.add_argument("--serve", action="store_true", help="show the page on this machine until Ctrl-C")
-    parser.add_argument("--port", type=int, default=0, help="port for --serve; default: a free one")
+    parser.add_argument("--port", type=int, help="port for --serve; default: a free one")
     parser.add_argument("--scene", metavar="SCENE", help="scene file, for pictures and colours on the page")
     parser.add_argument(
         "--model", action="append", metavar="KIND", help="propagation model of the felt map; may be repeated"
@@ -44,6 +45,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Show the inferred values, or write and serve the page."""
+    if not (arguments.output or arguments.serve):
+        reject_unused(arguments, ("scene", "model"), "Add -o PAGE.html or --serve for a page.")
+    if not arguments.serve:
+        reject_unused(arguments, ("port",), "Add --serve.")
+    if not arguments.scene:
+        reject_unused(arguments, SCENE_ARGUMENTS, "Name the scene file by --scene SCENE.")
     bundle = HapticBundle.load(arguments.bundle)
     if arguments.output or arguments.serve:
         return _page(arguments, bundle, console)
@@ -84,7 +91,7 @@ def _page(arguments: argparse.Namespace, bundle: HapticBundle, console: Console)
         page = assemble(report_document(bundle, models=models, pictures=pictures, account=account))
         folder = Path(arguments.bundle).absolute()  # the relative path "." has no name
         corrections = folder.with_name(f"{folder.name}.corrections.json")
-        server = ReportServer(page, corrections, arguments.port, lambda path: console.say(f"wrote {path}"))
+        server = ReportServer(page, corrections, arguments.port or 0, lambda path: console.say(f"wrote {path}"))
         console.say(f"{server.address} (Ctrl-C ends)")
         with contextlib.suppress(KeyboardInterrupt):
             server.serve()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable
 from typing import Any
 
 from scene2hap.bundle import HapticBundle
@@ -52,6 +53,13 @@ def loop_settings(arguments: argparse.Namespace) -> dict[str, Any]:
 
 def _given(**settings: object) -> dict[str, Any]:
     return {name: value for name, value in settings.items() if value is not None}
+
+
+def reject_unused(arguments: argparse.Namespace, names: Iterable[str], needs: str) -> None:
+    """Raise a ConfigError if one of these arguments, whose default is None, was given: it would have no effect."""
+    given = [f"--{name.replace('_', '-')}" for name in names if getattr(arguments, name) is not None]
+    if given:
+        raise ConfigError(f"{', '.join(given)}: no effect here. {needs}")
 
 
 def session_config(path: str | None, bundle: HapticBundle, **changes: Any) -> SessionConfig:

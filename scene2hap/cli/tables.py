@@ -9,6 +9,7 @@ from typing import Any
 from scene2hap.audio.haptic_loop import HapticLoop, Sensation, level_of
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.edited_loops import is_edited
+from scene2hap.bundle.override import NONE, Override
 from scene2hap.cli.console import Console
 from scene2hap.common.counted import counted
 from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
@@ -40,18 +41,22 @@ def scene_outcome(scene: SceneSnapshot) -> dict[str, Any]:
     }
 
 
-def show_scene(console: Console, scene: SceneSnapshot) -> None:
-    """Show the objects of a scene as a table."""
+def show_scene(console: Console, scene: SceneSnapshot, overrides: Mapping[str, Override] | None = None) -> None:
+    """Show the objects of a scene as a table, with the thicknesses that a person has corrected."""
+    corrected = {key: wish.thickness_m for key, wish in (overrides or {}).items() if wish.thickness_m is not None}
     console.table(
         f"{scene.name}: {counted(len(scene.objects), 'object')}, {scene.up_axis} up",
         ("object", ">length m", ">width m", ">thick m", ">height m", ">triangles", "measured"),
         (
             (
                 item.id,
-                *(f"{edge:.3f}" if edge >= 0.01 else f"{edge:.3g}" for edge in item.size_m),
+                *(
+                    f"{edge:.3f}" if edge >= 0.01 else f"{edge:.3g}"
+                    for edge in (*item.size_m[:2], corrected.get(item.id, item.size_m[2]))
+                ),
                 f"{item.relative_height_m:.2f}",
                 str(len(item.geometry.mesh.faces)),
-                ", ".join(item.surface.flags) or "well",
+                ", ".join((*item.surface.flags, *["thickness corrected"] * (item.id in corrected))) or "well",
             )
             for item in scene.objects
         ),
@@ -68,9 +73,11 @@ def bundle_outcome(bundle: HapticBundle) -> dict[str, Any]:
             object_id: {
                 "category": haptics.object_category,
                 "material": haptics.material.name if haptics.material else None,
+                "size_m": list(haptics.estimated_size_m),
                 "mass_kg": haptics.mass_kg,
                 "confidence": haptics.confidence,
                 "vibrates": haptics.vibrates,
+                "corrected": [*bundle.overrides.get(object_id, NONE).corrections()],
                 "states": {
                     state: {
                         "raw_hz": loop.frequency_raw_hz,

@@ -136,7 +136,7 @@ _REASONS = {
     "int_parsing": "it must be a whole number",
     "int_from_float": "it must be a whole number",
     "int_parsing_size": "it is too large",
-    "float_type": "it must be a number",
+    "float_type": "it must be a number, as 0.5",
     "float_parsing": "it must be a number, as 0.5",
     "finite_number": "it must be finite",
     "list_type": "it must be a list",

@@ -11,7 +11,7 @@ import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, Self
 
 from scene2hap.common.renaming import replace
 
@@ -149,6 +149,33 @@ def put_in_place(draft: Path, path: Path) -> None:
     with draft.open("rb+") as file:
         os.fsync(file.fileno())
     replace(draft, path)
+
+
+class DraftSet:
+    """Drafts of several files. As a context it removes those that have not replaced their files."""
+
+    def __init__(self) -> None:
+        self._drafts: list[tuple[Path, Path]] = []
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for draft, _path in self._drafts:
+            with suppress(OSError):
+                draft.unlink(missing_ok=True)
+
+    def write(self, path: Path, content: bytes) -> None:
+        """Write the draft of one more file. Raises: OSError: it cannot be written, or cannot replace what is there."""
+        require_place(path)
+        draft = draft_path(path)
+        self._drafts.append((draft, path))
+        draft.write_bytes(content)
+
+    def put_in_place(self) -> None:
+        """Replace the files by their drafts, in the order of `write`. Raises: OSError: one cannot be replaced."""
+        for draft, path in self._drafts:
+            put_in_place(draft, path)
 
 
 def write_whole(path: Path, content: str | bytes) -> None:

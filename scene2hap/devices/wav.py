@@ -81,6 +81,7 @@ class WavSink(PulledSink):
                 subtype="PCM_24",
                 format=self._container,
             )
+            _keep_header_current(self._file)
         except (OSError, soundfile.SoundFileError) as cause:
             give_back(self._key, self)
             with contextlib.suppress(OSError):
@@ -168,3 +169,9 @@ class WavSink(PulledSink):
     def stats(self) -> SinkStats:
         """Number of frames written so far."""
         return SinkStats(frames=self._frames)
+
+
+def _keep_header_current(file: soundfile.SoundFile) -> None:
+    """Write the length into the header at each write: else the draft of a killed program seems to have 0 frames."""
+    set_update_header_auto = 0x1061  # of sndfile.h; soundfile has no method for it
+    soundfile._snd.sf_command(file._file, set_update_header_auto, soundfile._ffi.NULL, 1)

@@ -8,8 +8,9 @@ from scene2hap.common import checks
 from scene2hap.devices.protocol import Block
 from scene2hap.errors import SessionError
 
-MAX_S = 3600.0
-"""Longest time at once [s] (assumed: far beyond any game's frame). A larger number is probably a number of frames."""
+MAX_RENDERED_FRAMES = 1 << 24
+"""Most frames of one call; assumed: minutes, while a sink takes milliseconds at a time. A longer time is probably a
+number of samples or of milliseconds."""
 
 
 class WholeFrames:
@@ -19,9 +20,13 @@ class WholeFrames:
         self._rate_hz, self._carried = rate_hz, 0.0
 
     def of(self, seconds: float) -> int:
-        """Return the frames that are due after another `seconds` [s]. Raises: SessionError: no time up to `MAX_S`."""
+        """Return the frames that are due after another `seconds` [s].
+
+        Raises: SessionError: no time, or one of more than `MAX_RENDERED_FRAMES`.
+        """
+        longest_s = MAX_RENDERED_FRAMES // self._rate_hz
         hint = "Give seconds, as 1 / 90 for a frame at 90 Hz; `render` and `pull` take a number of samples."
-        time_s = checks.number("seconds", seconds, "s", at_least=0.0, at_most=MAX_S, error=SessionError, hint=hint)
+        time_s = checks.number("seconds", seconds, "s", at_least=0.0, at_most=longest_s, error=SessionError, hint=hint)
         due = time_s * self._rate_hz + self._carried
         n_frames = max(0, round(due))
         self._carried = due - n_frames

@@ -8,7 +8,8 @@ FOLDER/KIND/NAME.*        the files of each track in each format
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -25,7 +26,7 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
 from scene2hap.common.counted import counted
 from scene2hap.common.json_texts import parse_json
-from scene2hap.common.text_files import require_place, write_whole
+from scene2hap.common.text_files import DraftSet, require_place
 from scene2hap.common.warning import warn_of
 from scene2hap.devices.memory import MemorySink
 from scene2hap.errors import ConfigError, ExportError, unwritable
@@ -64,9 +65,9 @@ def export_bundle(
         step, number done and total number.
     Returns: the written files, with the error of each.
     Raises: ConfigError: an unknown kind or setting; SessionError: touches that cannot be played; ExportError: the
-    folder cannot be written, or holds a manifest.json or report.json of another program. Files are written atomically,
-    the manifest last. Then files of these kinds are removed that an earlier manifest of this scene lists for a source,
-    and the new one does not.
+    folder cannot be written, or holds a manifest.json or report.json of another program. No file is replaced before all
+    are written; the manifest is replaced last. Then files of these kinds are removed that an earlier manifest of this
+    scene lists for a source, and the new one does not.
     Warns: SceneWarning: files of other kinds or of another scene stay, and the new manifest does not list them.
     """
     exporters, folder = _exporters(to), _place(folder, NAME, REPORT)
@@ -212,21 +213,25 @@ def _write(
 ) -> ExportReport:
     rows: list[FileReport] = []
     total, done = len(tracks) * len(exporters), 0
-    for track in tracks:
-        for kind, exporter in exporters.items():
-            made = exporter.export(track)
-            for name, content in made.files.items():
-                _put(folder / kind, name, content)
-            rows += _rows(kind, track, made)
-            done += 1
-            if progress is not None:
-                progress("exporting", f"{track.name} to {kind}", done, total)
-    report = ExportReport(str(folder), tuple(rows))
-    before = _files_of_sources(folder) if manifest is not None else None
-    _put(folder, REPORT, json_bytes(report.to_data()))
-    _put(folder, "report.txt", f"{report}\n".encode())
+    with DraftSet() as drafts:
+        for track in tracks:
+            for kind, exporter in exporters.items():
+                made = exporter.export(track)
+                for name, content in made.files.items():
+                    _draft(drafts, folder / kind, name, content)
+                rows += _rows(kind, track, made)
+                done += 1
+                if progress is not None:
+                    progress("exporting", f"{track.name} to {kind}", done, total)
+        report = ExportReport(str(folder), tuple(rows))
+        before = _files_of_sources(folder) if manifest is not None else None
+        _draft(drafts, folder, REPORT, json_bytes(report.to_data()))
+        _draft(drafts, folder, "report.txt", f"{report}\n".encode())
+        if manifest is not None:
+            _draft(drafts, folder, NAME, manifest(report))
+        with _writing(folder):
+            drafts.put_in_place()
     if manifest is not None:
-        _put(folder, NAME, manifest(report))
         now = _files_of_sources(folder)
         if before is not None and now is not None and before[0] == now[0]:
             gone = sorted(name for name in before[1] - {*report.files} if name.partition("/")[0] in exporters)
@@ -281,12 +286,18 @@ def _rows(kind: str, track: Track, made: Exported) -> list[FileReport]:
     return rows
 
 
-def _put(folder: Path, name: str, content: bytes) -> None:
+def _draft(drafts: DraftSet, folder: Path, name: str, content: bytes) -> None:
     path = folder / name
     if path.parent != folder or not name:
         raise ExportError(f"an exporter names a file {name!r}; it must be a name without a folder.")
-    try:
+    with _writing(path):
         folder.mkdir(parents=True, exist_ok=True)
-        write_whole(path, content)
+        drafts.write(path, content)
+
+
+@contextmanager
+def _writing(path: Path) -> Iterator[None]:
+    try:
+        yield
     except OSError as cause:
         raise ExportError(unwritable(path, cause)) from cause

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import csv
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cache
 from importlib.resources import files
 
@@ -99,7 +99,8 @@ def lookup_row(name: str) -> MaterialRow:
     if row is None:
         near = checks.did_you_mean(_key(name), _by_name())
         raise UnknownMaterial(
-            f"no material {name!r} in the table of {len(table())}. {near} Or give a Material with your own constants."
+            f"no material {name!r} in the table of {len(table())}. {near} Or give a Material of your own: "
+            f"{', '.join(field.name for field in fields(Material))}."
         )
     return row
 

@@ -113,3 +113,16 @@ class LiveModel(Protocol):
     ) -> LiveField:
         """Make a field that reads the graph at every query. The graph may change between queries, bodies not."""
         ...
+
+
+def live_model(model: object) -> LiveModel | None:
+    """Return a model if it offers live fields, and these are the fields of its `prepare`; else None.
+
+    A class that overrides `prepare` alone inherits a `live` of another law.
+    """
+    definitions = (_METHODS & vars(base).keys() for base in type(model).__mro__)
+    newest = next(filter(None, definitions), _METHODS)
+    return model if isinstance(model, LiveModel) and "live" in newest else None
+
+
+_METHODS = {"prepare", "live"}

@@ -83,19 +83,12 @@ def turn_down_in_place(
     np.copyto(mix, u, casting="same_kind")
 
 
-def soft_limit(mix: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Return the mix within [-1, 1]; float32 of any shape, changed only where |x| exceeds -3 dB re full scale."""
-    limited = np.array(mix, order="C")
-    flat = limited.reshape(1, -1)
-    limit_in_place(flat, np.empty_like(flat), THRESHOLD)
-    return limited
-
-
 def soft_limit_sum(mix: NDArray[np.float32], total: NDArray[np.float32]) -> NDArray[np.float32]:
     """Return the sum of a limited mix and more signals within [-1, 1]; float32, `mix` and `total` of one shape.
 
     The curve begins at -3 dB, or at the level of the mix where the mix is louder. A mix without additions is therefore
-    unchanged. A second pass of the whole curve would begin and end each impact with a step, at all hands.
+    unchanged. A second pass of the whole curve would begin and end each impact with a step, at all hands. Of several
+    limited mixes, `mix` is the loudest.
     """
     size = np.abs(total)
     if not total.size or np.maximum.reduce(size, axis=None) <= THRESHOLD:
@@ -108,7 +101,7 @@ def soft_limit_sum(mix: NDArray[np.float32], total: NDArray[np.float32]) -> NDAr
 
 @compiled
 def limit_in_place(mix: NDArray[np.float32], scratch: NDArray[np.float32], threshold: float) -> None:
-    """Apply `soft_limit` in place to (n_channels, n_frames). Scratch has the mix's shape, so nothing large is
+    """Apply the curve in place to (n_channels, n_frames). Scratch has the mix's shape, so nothing large is
     allocated."""
     np.abs(mix, out=scratch)
     if not mix.size or np.maximum.reduce(scratch, axis=None) <= threshold:

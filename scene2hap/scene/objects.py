@@ -17,7 +17,7 @@ from scene2hap.common.counted import counted
 from scene2hap.common.printable import writable
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
-from scene2hap.scene.geometry import bounds_of, frozen
+from scene2hap.scene.geometry import Real, bounds_of, frozen
 from scene2hap.scene.images import ObjectImages
 from scene2hap.scene.looks.appearance import Appearance
 from scene2hap.scene.pose import Pose, how_to_write
@@ -43,10 +43,10 @@ class Contact:
 
     a: str
     b: str
-    point_m: tuple[float, float, float]
-    normal: tuple[float, float, float] | None = None
-    area_m2: float | None = None
-    weight: float = 1.0
+    point_m: tuple[Real, Real, Real]
+    normal: tuple[Real, Real, Real] | None = None
+    area_m2: Real | None = None
+    weight: Real = 1.0
 
     if TYPE_CHECKING:
 
@@ -93,8 +93,8 @@ class Hinge:
     """
 
     to: str
-    point_m: tuple[float, float, float]
-    other_point_m: tuple[float, float, float]
+    point_m: tuple[Real, Real, Real]
+    other_point_m: tuple[Real, Real, Real]
 
     if TYPE_CHECKING:
 
@@ -129,9 +129,9 @@ class SceneObject:
     pose: Pose
     geometry: Geometry
     surface: DominantSurface
-    relative_height_m: float = 0.0
+    relative_height_m: Real = 0.0
     instance_key: str = ""
-    mass_kg: float | None = None
+    mass_kg: Real | None = None
     hinge: Hinge | None = None
     # Not compared: it may come from the looks, which are not part of a scene's equality.
     material_names: tuple[str, ...] = field(default=(), compare=False, repr=False)

@@ -16,7 +16,7 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError
-from scene2hap.scene.geometry import Vector, frozen, vector
+from scene2hap.scene.geometry import Real, Vector, frozen, vector
 
 # A quaternion this close to unit length is kept unchanged, so that JSON round trips are bit-identical. One shorter than
 # `LEAST_LENGTH` is no rotation.
@@ -39,8 +39,8 @@ class Pose:
     Warns: SceneWarning: the length of the quaternion is far from 1.
     """
 
-    position_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    rotation_xyzw: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
+    position_m: tuple[Real, Real, Real] = (0.0, 0.0, 0.0)
+    rotation_xyzw: tuple[Real, Real, Real, Real] = (0.0, 0.0, 0.0, 1.0)
 
     if TYPE_CHECKING:
 

@@ -15,7 +15,7 @@ from pydantic import PlainSerializer, PlainValidator
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import SceneError
-from scene2hap.scene.geometry import bounds_of, frozen
+from scene2hap.scene.geometry import Real, bounds_of, frozen
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.surface import plate_sizes
 from scene2hap.scene.surface.outline import Outline
@@ -44,7 +44,7 @@ class Box:
     Raises: SceneError: an edge is not positive and finite.
     """
 
-    size_m: tuple[float, float, float]
+    size_m: tuple[Real, Real, Real]
     kind: Literal["box"] = "box"
 
     if TYPE_CHECKING:
@@ -185,9 +185,9 @@ class DominantSurface:
     """
 
     pose: Pose
-    length_m: float
-    width_m: float
-    thickness_m: float
+    length_m: Real
+    width_m: Real
+    thickness_m: Real
     flags: tuple[SurfaceFlag, ...] = ()
     outline: Outline | None = None
     is_assumed = False  # measured with y up, before the scene is known; no dataclass field, so that it is not stored

@@ -15,6 +15,7 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.common import checks
 from scene2hap.common.arrays import Floats
 from scene2hap.devices.protocol import ActuatorSink
+from scene2hap.devices.whole_frames import MAX_RENDERED_FRAMES
 from scene2hap.errors import BundleError, ConfigError, SceneError, SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.objects import Contact, SceneObject
@@ -23,9 +24,6 @@ from scene2hap.session.frame import Touch, require_hand, unknown_hand
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.impacts.felt_impacts import KNOCK_M_S, Strike
 from scene2hap.session.scene_state import SceneState
-
-MAX_RENDERED_FRAMES = 1 << 24
-"""Most frames of one call; assumed: minutes, while a sink takes milliseconds at a time."""
 
 MAX_POINTS = 1024
 """Most tracked points of a hand; assumed: 26 joints, or a few hundred points of a glove."""

@@ -226,7 +226,7 @@ class HapticSession:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
         self._impacts.follow(moved, felt, self._user, stamp)
         self._output.feed(frame)
-        if not self._output.is_listened_to and (problem := self._output.problem) is not None:
+        if (problem := self._output.untold_problem) is not None:
             self._mistakes.in_sink(problem)
         if felt:
             self._mistakes.in_sources(self._sources.ids)

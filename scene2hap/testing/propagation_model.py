@@ -16,7 +16,7 @@ from scene2hap.haptics import Bands
 from scene2hap.materials import lookup
 from scene2hap.plugins import lacking
 from scene2hap.propagation import MODELS
-from scene2hap.propagation.live import LiveModel
+from scene2hap.propagation.live import LiveModel, live_model
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.protocol import (
     ContactNetwork,
@@ -73,7 +73,7 @@ def check_propagation_model(model: PropagationModel) -> None:
     assert not problem, problem
     for bands in _BANDS:
         _hold_answers(model, bands)
-        if isinstance(model, LiveModel):
+        if live_model(model) is not None:
             _hold_live(model, bands)
         for network, sources in ((_NETWORK, ()), (_EMPTY, (_FAN,)), (_EMPTY, ())):
             _answers(model, _prepared(model, network, sources, bands), "table", _ON_TABLE, len(sources), bands)

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -24,6 +25,7 @@ from scene2hap.cli.console import Console
 from scene2hap.cli.play import silence
 from scene2hap.errors import BadAnswer
 from scene2hap.llm.lexicon.backend import LexiconBackend
+from scene2hap.materials import Material
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.session import HapticSession, Touch
 
@@ -152,6 +154,23 @@ def test_wrong_id_or_material_keeps_the_bundle_unchanged(fan: Path, capsys: pyte
         assert main(["edit", str(folder), *words]) == 1
         assert words[1 if words[0] == "gain" else 2] in capsys.readouterr().err
     assert (folder / "bundle.json").stat().st_ino == before
+
+
+def test_a_material_that_no_table_has_is_given_by_its_constants(
+    fan: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    constants = {"name": "my abs", "density_kg_m3": 1111, "youngs_modulus_pa": 2.2e9, "poisson_ratio": 0.33}
+    assert main(["edit", str(fan), "material", "fan", "my abs"]) == 1
+    assert f"a Material of your own: {', '.join(constants)}, loss_factor." in capsys.readouterr().err
+    assert main(["edit", str(fan), "material", "fan", json.dumps(constants)[:-1]]) == 1
+    assert "which is no JSON" in capsys.readouterr().err
+    own = Material("my abs", 1111.0, 2.2e9, 0.33)
+    assert main(["edit", str(fan), "material", "fan", json.dumps(constants)]) == 0
+    assert HapticBundle.load(fan).objects["fan"].material == own
+    corrections = {"format": "scene2hap/overrides", "version": 1, "overrides": {"fan": {"feet": constants}}}
+    (tmp_path / "c.json").write_text(json.dumps(corrections))
+    assert main(["edit", str(fan), "apply", str(tmp_path / "c.json")]) == 0
+    assert HapticBundle.load(fan).objects["fan"].feet == own
 
 
 def test_a_locked_loop_stays_byte_for_byte(
@@ -309,6 +328,25 @@ def test_an_edit_says_what_changed(kitchen: Callable[..., Path], capsys: pytest.
     said = capsys.readouterr().out
     assert "fan, pitch: - -> 200 Hz" in said
     assert "its place among the sources" in said
+
+
+def test_inspect_shows_a_corrected_thickness_as_corrected(fan: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    def row() -> list[str]:
+        capsys.readouterr()
+        assert main(["inspect", str(fan)]) == 0
+        rows = [line.split("│") for line in capsys.readouterr().out.splitlines() if line.startswith("│ fan ")]
+        return [cell.strip() for cell in rows[0]]
+
+    before = row()
+    assert main(["edit", str(fan), "thickness", "fan", "0.042"]) == 0
+    after = row()
+    changed = [(one, other) for one, other in zip(before, after, strict=True) if one != other]
+    assert len(changed) == 2
+    assert changed[0][1] == "0.042"
+    assert changed[1] == ("well", "thickness corrected")
+    told: Any = outcome(capsys, "inspect", str(fan), "--json")["objects"]
+    assert told["fan"]["size_m"][2] == 0.042
+    assert told["fan"]["corrected"] == ["thickness_m"]
 
 
 def test_an_edit_without_effect_can_still_be_followed_by_undo(fan: Path, capsys: pytest.CaptureFixture[str]) -> None:

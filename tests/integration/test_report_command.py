@@ -40,6 +40,26 @@ def test_report_on_a_missing_object_is_refused(bundle: Path, capsys: pytest.Capt
     assert "chair" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        ("report B --group leaf", "--group: no effect here. Name the scene file by --scene SCENE."),
+        ("report B -o PAGE --unit-m 0.01 --up-axis y", "--unit-m, --up-axis: no effect here. Name the scene file by"),
+        ("report B --scene room.glb --model modal_plate", "--scene, --model: no effect here. Add -o PAGE.html or"),
+        ("report B -o PAGE --port 80", "--port: no effect here. Add --serve."),
+        ("inspect B --group leaf", "b' is a bundle. Bake its scene file again with it."),
+    ],
+)
+def test_an_option_without_effect_is_refused(
+    bundle: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], options: str, says: str
+) -> None:
+    page = tmp_path / "page.html"
+    places = {"B": str(bundle), "PAGE": str(page)}
+    assert main([places.get(one, one) for one in options.split()]) == 1
+    assert says in capsys.readouterr().err
+    assert not page.exists()
+
+
 def test_dry_run_sends_no_request_and_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     cache = tmp_path / "cache"
     asked = ["bake", str(kitchen_path()), "--dry-run", "--llm", "openai:gpt-4o", "--no-pictures", "--cache", str(cache)]
@@ -48,6 +68,24 @@ def test_dry_run_sends_no_request_and_writes_nothing(tmp_path: Path, capsys: pyt
     assert "calls in all" in said
     assert "US dollars (prices of" in said
     assert not any(cache.glob("*"))
+
+
+def test_dry_run_finds_that_the_output_cannot_be_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "notes.txt").write_text("mine")
+    others = tmp_path / "others.bundle"
+    others.mkdir()
+    (others / "notes.txt").write_text("mine")
+    scene = str(kitchen_path())
+    for place in (tmp_path / "notes.txt", others):
+        assert main(["bake", scene, "--dry-run", "-o", str(place)]) == 1
+        told = capsys.readouterr()
+        assert f"{place} is not" in told.err
+        assert not told.out
+    others.rename(tmp_path / "kitchen.bundle")
+    assert main(["bake-many", scene, "--dry-run", "-o", str(tmp_path), "--json"]) == 1
+    told = capsys.readouterr()
+    assert [one["plan"] for one in json.loads(told.out)["scenes"]] == ["fail"]
+    assert "kitchen.bundle is not empty and not a bundle" in told.err
 
 
 def test_cost_of_a_model_without_price_is_unknown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -13,6 +13,7 @@ from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.many.pool import Pool
 from scene2hap.baking.many.run import Progress, Run, scene_paths
 from scene2hap.baking.questions import count_questions
+from scene2hap.bundle.folder_replacement import require_replaceable
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes, clear_call
 from scene2hap.common.run_coroutine import run_waiting
@@ -97,6 +98,7 @@ async def _planned(
                 _, stage = await run.state(path)
                 if stage:
                     return ScenePlan(str(path), target, "keep" if stage == "baked" else "sounds")
+                require_replaceable(run.target(path))
                 scene = await asyncio.to_thread(load_scene, path, **run.options)
                 n = len(scene.objects)
                 if not is_remote(config.llm):

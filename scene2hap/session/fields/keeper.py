@@ -16,7 +16,7 @@ from scene2hap.common.warning import warn_of
 from scene2hap.haptics import Bands
 from scene2hap.propagation.controls import NoPropagation
 from scene2hap.propagation.exponential_plate import ExponentialPlate
-from scene2hap.propagation.live import LiveField, LiveModel, SucceedingField, TouchedPoint
+from scene2hap.propagation.live import LiveField, LiveModel, SucceedingField, TouchedPoint, live_model
 from scene2hap.propagation.protocol import (
     Body,
     ContactNetwork,
@@ -354,8 +354,9 @@ def keeper_of(config: SessionConfig, state: SceneState, excitations: Sequence[Ex
     model, bands = config.propagation, config.bands
     # The law is its own reference.
     is_scaled = config.reference == "felt_near" and not isinstance(model, ExponentialPlate)
-    if isinstance(model, LiveModel) and not is_scaled:
-        return LiveKeeper(model, bands, state, excitations)
+    live = live_model(model)
+    if live is not None and not is_scaled:
+        return LiveKeeper(live, bands, state, excitations)
     if is_scaled:
         model = FeltNear(model)
     is_background, skips_unreachable = config.prepare == "background", config.skips_unreachable

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from scene2hap.common.arrays import Indices
 from scene2hap.devices.protocol import Block
-from scene2hap.render.limiter import soft_limit
+from scene2hap.render.limiter import soft_limit_sum
 from scene2hap.render.loop_bank import SlotBank
 from scene2hap.render.mixer import Mixer
 from scene2hap.session.config import MIN_RAMP_S, SessionConfig
@@ -115,7 +115,9 @@ class MixingPlan:
         mixer, outputs, _ = self.mixers[0]
         if len(self.mixers) == 1 and len(outputs) == len(mixer.hands):
             return mixer.render(position, n_frames)
-        total = np.zeros((n_frames, self.n_channels), dtype=np.float32)
+        total, loudest = np.zeros((2, n_frames, self.n_channels), dtype=np.float32)
         for mixer, outputs, channels in self.mixers:
-            total[:, channels] += mixer.render(position, n_frames)[:, outputs]
-        return soft_limit(total)
+            mix = mixer.render(position, n_frames)[:, outputs]
+            total[:, channels] += mix
+            loudest[:, channels] = np.maximum(loudest[:, channels], np.abs(mix))
+        return soft_limit_sum(loudest, total)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import atexit
 import contextlib
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, cast
 
@@ -17,7 +17,7 @@ from scene2hap.common.printable import quoted
 from scene2hap.common.warning import warn_of
 from scene2hap.devices import SINKS
 from scene2hap.devices.exclusive_use import claim_sink, give_back_sink
-from scene2hap.devices.protocol import ActuatorSink, EventCallback, Fill, SinkEvent, SinkFormat, has_clock
+from scene2hap.devices.protocol import ActuatorSink, EventCallback, Fill, SinkEvent, SinkFormat, has_clock, parts_of
 from scene2hap.errors import ConfigError, DeviceError, SessionError
 from scene2hap.render.safety import FADE_OUT_S, SafetyLayer, SafetyStats
 from scene2hap.session.config import SessionConfig
@@ -53,9 +53,7 @@ class Output:
         self._limits: NDArray[np.float64] | None = None
         self._show: Callable[[HapticFrame], None] | None = getattr(built, "show", None)
         self._shown: HapticFrame | None = None
-        self._events: dict[str, SinkEvent] = {}  # the last one of each sink
-        self._on_event: EventCallback | None = None
-        self._note: EventCallback | None = None
+        self._taps: list[_EventTap] = []
         self.is_unused: bool = built is not None
         """Whether a sink is set that was never started."""
 
@@ -82,15 +80,17 @@ class Output:
     @property
     def problem(self) -> str | None:
         """Why a started sink, or one of several, plays nothing. None if all play, or the game took `on_event` since."""
-        if self._safety is None or not self._events or not self._is_listening(self.sink):
-            return None
-        events = list(self._events.values())  # the threads of the sinks add more
-        return next((event.message for event in events if event.kind in _PROBLEMS), None)
+        return self._first_problem(self._taps)
 
     @property
-    def is_listened_to(self) -> bool:
-        """Whether the game gets the events of the sink itself."""
-        return self._on_event is not None
+    def untold_problem(self) -> str | None:
+        """A `problem` whose event no callback of the game got."""
+        return self._first_problem(tap for tap in self._taps if tap.own is None)
+
+    def _first_problem(self, taps: Iterable[_EventTap]) -> str | None:
+        if self._safety is None:
+            return None
+        return next((problem for tap in taps if (problem := tap.problem) is not None), None)
 
     @property
     def is_late(self) -> bool:
@@ -99,26 +99,15 @@ class Output:
         return safety is not None and safety.is_late
 
     def _listen(self, sink: ActuatorSink) -> None:
-        """Note the events of a sink until `_listen_no_more`, and pass them on to its own callback."""
-        events, on_event = dict[str, SinkEvent](), getattr(sink, "on_event", None)
+        """Note the events of a sink until `_listen_no_more`; those of a part with a callback do not reach its group."""
+        self._taps = [_EventTap(x) for x in parts_of(sink) if x is sink or getattr(x, "on_event", None) is not None]
+        for tap in self._taps:
+            tap.begin()
 
-        # Another function at each start: a game may have put its own callback over the last one, and call that one.
-        def note(event: SinkEvent) -> None:
-            events[event.sink] = event
-            if on_event is not None:
-                on_event(event)
-
-        self._events, self._on_event, self._note = events, on_event, note
-        if hasattr(sink, "on_event"):
-            sink.on_event = note
-
-    def _listen_no_more(self, sink: ActuatorSink) -> None:
-        """Give the sink its own callback back: another session may play on it next."""
-        if self._is_listening(sink):
-            sink.on_event = self._on_event  # type: ignore[attr-defined]  # looked up by name, see ActuatorSink
-
-    def _is_listening(self, sink: ActuatorSink | None) -> bool:
-        return self._note is not None and getattr(sink, "on_event", None) is self._note
+    def _listen_no_more(self) -> None:
+        """Give the sinks their own callbacks back: another session may play on them next."""
+        for tap in self._taps:
+            tap.end()
 
     def feed(self, frame: HapticFrame) -> None:
         """Reset the watchdog, and pass the gains to the sink."""
@@ -215,7 +204,7 @@ class Output:
             finally:
                 end()
         finally:
-            self._listen_no_more(sink)
+            self._listen_no_more()
             give_back_sink(sink, self)
 
     @contextlib.contextmanager
@@ -254,6 +243,42 @@ class Output:
             with contextlib.suppress(DeviceError):
                 sink.pull(round(FADE_OUT_S * self._config.sample_rate_hz))  # type: ignore[attr-defined]  # above
         self._ended = safety.stats
+
+
+class _EventTap:
+    """Notes the last event of each device of a sink, and passes events on to `own`, the sink's own callback.
+
+    Each start has another one: a game may have put its own callback over the last one, and call that one.
+    """
+
+    def __init__(self, sink: ActuatorSink) -> None:
+        self._sink: Any = sink  # `on_event` is looked up by name, see ActuatorSink
+        self.own: EventCallback | None = getattr(sink, "on_event", None)
+        self._events: dict[str, SinkEvent] = {}
+
+    def begin(self) -> None:
+        if hasattr(self._sink, "on_event"):
+            self._sink.on_event = self._note
+
+    def end(self) -> None:
+        if self._is_in_place:
+            self._sink.on_event = self.own
+
+    @property
+    def problem(self) -> str | None:
+        if not self._events or not self._is_in_place:
+            return None
+        events = list(self._events.values())  # the threads of the sinks add more
+        return next((event.message for event in events if event.kind in _PROBLEMS), None)
+
+    @property
+    def _is_in_place(self) -> bool:
+        return getattr(self._sink, "on_event", None) == self._note
+
+    def _note(self, event: SinkEvent) -> None:
+        self._events[event.sink] = event
+        if self.own is not None:
+            self.own(event)
 
 
 def _discard(sink: ActuatorSink) -> Callable[[], None]:

@@ -239,6 +239,21 @@ def test_the_names_of_materials_are_kept_for_rebake(tmp_path: Path, is_old: bool
     assert again.objects["Object_7"].material_category == ("unknown" if is_old else "walnut")
 
 
+def test_a_state_that_a_person_adds_gets_its_loop(tmp_path: Path) -> None:
+    """docs/bundles.md: the lexicon's washing machine only spins. When it washes, its motor hums at 100 Hz."""
+    machine = SceneObject("washer", name="washing machine", geometry=Box((0.6, 0.85, 0.6)))
+    folder = bake(SceneSnapshot.build([machine], name="laundry")).save(tmp_path / "b")
+    answers = json.loads((folder / "objects.json").read_text())
+    (spins,) = answers["washer"]["states"]
+    washes = {"name": "washing", "sentence": "washing machine washing gently", "keywords": "washing machine washing"}
+    answers["washer"]["states"].append({**spins, **washes, "intensity": 0.4})
+    (folder / "objects.json").write_text(json.dumps(answers))
+    loops = rebake(HapticBundle.load(folder)).loops["washer"]
+    assert [*loops] == [spins["name"], "washing"]
+    assert loops["washing"].frequency_raw_hz == pytest.approx(100.0, abs=1.0)
+    assert loops[spins["name"]].frequency_raw_hz > 150.0
+
+
 def test_names_of_materials_are_given_without_looks() -> None:
     named = SceneObject("Object_7", geometry=Box((0.6, 0.6, 0.6)), material_names=["walnut"])
     fan = SceneObject("fan", pose=Pose((1, 0, 0)), geometry=Box((0.4, 0.6, 0.3)))

@@ -9,7 +9,7 @@ import pytest
 from scene2hap import AudioClip, Credit, HapticBundle, HapticSession, Material, Touch, materials
 from scene2hap.audio.files import write_wav
 from scene2hap.bundle import BundleWarning, Override
-from scene2hap.errors import AudioError, BundleError, UnknownMaterial, UnknownObject
+from scene2hap.errors import AudioError, BundleError, MaterialError, UnknownMaterial, UnknownObject
 from scenes import RATE, table_with_two_phones
 
 
@@ -41,6 +41,9 @@ def test_material_override_accepts_a_name_or_constants(bundle: HapticBundle) -> 
     changed = bundle.override("table", material=jelly).objects["table"]
     assert (changed.material, changed.material_category) == (jelly, "jelly")
     assert changed.provenance["material"] == "user"
+    constants = {"name": "jelly", "density_kg_m3": 1000, "youngs_modulus_pa": 1e5, "poisson_ratio": 0.49}
+    assert bundle.override("table", material={**constants, "loss_factor": 0.4}).objects["table"] == changed
+    assert bundle.override("table", feet=constants).objects["table"].feet == Material("jelly", 1000.0, 1e5, 0.49)
 
 
 def test_thickness_override_changes_how_far_vibration_goes(bundle: HapticBundle, tmp_path: Path) -> None:
@@ -146,6 +149,21 @@ def test_bundle_without_overrides_file_has_no_overrides(bundle: HapticBundle, tm
         ({"gain_db": float("nan")}, BundleError, "gain_db"),
         ({"material": "unobtainium"}, UnknownMaterial, "unobtainium"),
         ({"material": 7}, BundleError, "material is 7"),
+        (
+            {"material": {}},
+            BundleError,
+            "material has no field; the fields of a material are name, density_kg_m3, youngs",
+        ),
+        (
+            {"feet": {"name": "a", "colour": 2}},
+            BundleError,
+            "feet has name, colour; .* Only loss_factor may be left out",
+        ),
+        (
+            {"feet": {"name": "a", "density_kg_m3": -1, "youngs_modulus_pa": 1e9, "poisson_ratio": 0.3}},
+            MaterialError,
+            "density_kg_m3 is -1 kg/m3",
+        ),
         ({"clip": "hum.wav"}, AudioError, "hum.wav is not a file"),
         ({"clip": 3}, BundleError, "clip is 3"),
     ],

@@ -16,6 +16,8 @@ from scene2hap import SceneWarning
 from scene2hap.audio.run_curve import RunCurve
 from scene2hap.errors import ExportError
 from scene2hap.export import export_bundle, export_clip
+from scene2hap.export.protocol import Exported
+from scene2hap.export.track import Track
 from scenes import table_with_two_phones
 
 
@@ -137,6 +139,41 @@ def test_no_file_outside_is_removed_for_a_manifest_that_lists_it(tmp_path: Path)
     (out / "manifest.json").write_text(text.replace(f"wav/{listed}", "wav/../../victim.wav"), encoding="utf-8")
     assert export_bundle(bundle, out, "wav").removed == ()
     assert victim.exists()
+
+
+class FailsAt:
+    """Exports the first tracks, and fails at the last one."""
+
+    def __init__(self, cause: BaseException, n_tracks: int) -> None:
+        self._cause, self._n_left = cause, n_tracks
+
+    def export(self, track: Track) -> Exported:
+        self._n_left -= 1
+        if self._n_left == 0:
+            raise self._cause
+        return Exported({f"{track.name}.txt": b"new"})
+
+
+@pytest.mark.parametrize("cause", [ExportError("no such rate"), OSError(28, "No space left"), KeyboardInterrupt()])
+def test_an_export_that_fails_midway_leaves_the_files_of_the_one_before(tmp_path: Path, cause: BaseException) -> None:
+    _, bundle = table_with_two_phones()
+    n_tracks = sum(map(len, bundle.loops.values()))
+    export_bundle(bundle, tmp_path, "wav")
+    before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+    with pytest.raises(type(cause)):
+        export_bundle(bundle, tmp_path, [{"kind": "wav", "sample_rate_hz": 1000}, FailsAt(cause, n_tracks)])
+    assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before
+
+
+def test_a_folder_in_the_place_of_a_file_is_found_before_any_is_replaced(tmp_path: Path) -> None:
+    _, bundle = table_with_two_phones()
+    last = tmp_path / export_bundle(bundle, tmp_path, "wav").files[-1]
+    last.unlink()
+    last.mkdir()
+    before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+    with pytest.raises(ExportError, match=rf"{last.name} cannot be written: "):
+        export_bundle(bundle, tmp_path, {"kind": "wav", "sample_rate_hz": 1000})
+    assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before
 
 
 @pytest.mark.parametrize(

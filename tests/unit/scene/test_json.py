@@ -178,6 +178,14 @@ def _document() -> dict[str, Any]:
         (("objects", 0, "geometry"), 5, "scene field objects.0.geometry"),
         (("geometries",), [], "geometries must be an object"),
         (("contacts",), [{"a": "a", "b": "c", "point_m": [0, 0, 0]}], "no object 'c'"),
+        (("objects", 0, "mass_kg"), True, r"objects\.0\.mass_kg: it must be a number, as 0\.5\."),
+        (("objects", 0, "relative_height_m"), "1", r"objects\.0\.relative_height_m: it must be a number"),
+        (("objects", 0, "pose", "position_m"), [0, True, 0], r"position_m\.1: it must be a number"),
+        (("objects", 0, "pose", "rotation_xyzw"), [0, 0, 0, "1"], r"rotation_xyzw\.3: it must be a number"),
+        (("objects", 0, "surface", "length_m"), "1", r"surface\.length_m: it must be a number"),
+        (("objects", 0, "geometry"), {"size_m": [1, True, 1]}, r"geometry\.size_m\.1: it must be a number"),
+        (("objects", 0, "hinge"), {"to": "b", "point_m": [0, 0, "0"], "other_point_m": [0, 0, 0]}, "must be a number"),
+        (("contacts",), [{"a": "a", "b": "b", "point_m": [0, 0, 0], "weight": True}], "weight: it must be a number"),
     ],
 )
 def test_error_names_the_invalid_field(path: tuple[str | int, ...], value: object, sentence: str) -> None:

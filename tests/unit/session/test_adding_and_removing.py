@@ -210,6 +210,22 @@ def test_adding_a_hand_does_not_change_other_hands() -> None:
     np.testing.assert_allclose(changing.render(4410)[:, :2], still.render(4410), atol=1e-6)
 
 
+def test_adding_a_hand_does_not_change_a_loud_mix() -> None:
+    """The limiter was applied again to the mixes of all hands, and took 0.06 of full scale."""
+    changing, still = (session(propagation="full_propagation", prepare="blocking") for _ in range(2))
+    changing.add_hand("foot")
+    loudest = 0.0
+    for s in (changing, still):
+        s.set_source("phone", gain_db=12)
+    for _ in range(20):
+        for s in (changing, still):
+            s.update(touches=[ON_TABLE])
+        expected = still.render(RATE // 100)
+        np.testing.assert_allclose(changing.render(RATE // 100)[:, :2], expected, atol=1e-6)
+        loudest = max(loudest, float(np.abs(expected).max()))
+    assert loudest > 10 ** (-3 / 20)  # where the limiter begins
+
+
 def test_an_added_hand_feels_at_once_what_a_hand_from_the_start_would() -> None:
     # At 44.1 kHz every 441st frame is at a whole tactile sample: 3 frames after 12345, and 439 after 12350.
     on_table = Touch("foot", "table", ON_TABLE.point_m)

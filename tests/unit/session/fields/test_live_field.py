@@ -3,12 +3,13 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from scene2hap import Bands, ExponentialPlate, HapticSession, Pose, Touch
+from scene2hap import Bands, ExponentialPlate, FullPropagation, HapticSession, NoPropagation, Pose, Touch
 from scene2hap.errors import ModelDomainError
 from scene2hap.session.audibility import SILENT
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
@@ -180,6 +181,9 @@ class CountsFields(ExponentialPlate):
         type(self).n_prepared += 1
         return super().prepare(network, excitations, bands)
 
+    def live(self, *given: Any) -> Any:
+        return super().live(*given)
+
 
 @pytest.mark.parametrize("bands", [Bands.dominant(), Bands.third_octaves(10, 1000)], ids=["dominant", "octaves"])
 def test_many_points_are_felt_as_each_alone_with_one_field_for_a_scene(bands: Bands) -> None:
@@ -212,3 +216,31 @@ def test_many_points_are_felt_as_each_alone_with_one_field_for_a_scene(bands: Ba
         for _ in range(2):
             np.testing.assert_allclose(session.would_feel(here), alone, rtol=1e-9, atol=1e-12)
         assert CountsFields.n_prepared == n_changes
+
+
+class HalfOfFull(FullPropagation):
+    """Overrides `prepare` alone: half of each source arrives on other objects."""
+
+    def prepare(self, network: Any, excitations: Any, bands: Bands) -> Any:
+        self_alone, everywhere = NoPropagation(), super()
+        fields = [model.prepare(network, excitations, bands) for model in (self_alone, everywhere)]
+        return SimpleNamespace(
+            source_ids=fields[0].source_ids,
+            attenuation=lambda *at: sum(field.attenuation(*at) for field in fields) / 2,
+        )
+
+
+class LiveHalf(HalfOfFull):
+    """Overrides both."""
+
+    def live(self, *given: Any) -> Any:
+        return super().live(*given)
+
+
+@pytest.mark.parametrize(
+    ("model", "gain"), [(FullPropagation(), 1.0), (HalfOfFull(), 0.5), (LiveHalf(), 1.0)], ids=lambda x: str(x)[:10]
+)
+def test_a_subclass_that_overrides_prepare_alone_is_prepared(model: Any, gain: float) -> None:
+    settings = {"sample_rate_hz": RATE, "prepare": "blocking", "propagation": model}
+    session = HapticSession(*table_with_two_phones(), settings)
+    assert session.update(touches=[ON_TABLE]).gain("left", "phone") == gain

@@ -56,6 +56,24 @@ def test_a_game_that_listens_to_its_sink_gets_no_warning() -> None:
     assert sink.on_event == listener
 
 
+def test_a_missing_device_is_named_although_the_game_listens_to_this_part_of_a_group() -> None:
+    card, other, events = Deviceless(), Deviceless(), list[SinkEvent]()
+    listener = card.on_event = events.append
+    with HapticSession(*table_with_two_phones(), CONFIG, sink=TeeSink([TeeSink([card]), MemorySink()])) as s:
+        s.update(touches=[ON_TABLE])  # without a warning
+        assert "no card" in s.explain("left").text
+        card.on_event(SinkEvent("connected", "the card plays.", 0.1, "card"))
+        assert "no card" not in s.explain("left").text
+    assert [one.kind for one in events] == ["unavailable", "connected"]
+    assert card.on_event == listener
+    with (
+        HapticSession(*table_with_two_phones(), CONFIG, sink=TeeSink([card, other])) as s,
+        pytest.warns(SceneWarning, match="no card"),  # of the other one
+    ):
+        s.update(touches=[ON_TABLE])
+    assert len(events) == 3
+
+
 def test_a_game_that_begins_to_listen_later_is_not_told_of_the_past() -> None:
     sink, events = Deviceless(), list[SinkEvent]()
     with HapticSession(*table_with_two_phones(), CONFIG, sink=sink) as s:
