@@ -8,9 +8,9 @@ from scene2hap.common import checks
 from scene2hap.devices.protocol import Block
 from scene2hap.errors import SessionError
 
-MAX_RENDERED_FRAMES = 1 << 24
-"""Most frames of one call; assumed: minutes, while a sink takes milliseconds at a time. A longer time is probably a
-number of samples or of milliseconds."""
+MAX_RENDERED_FRAMES = 1 << 26
+"""Most frames of one call: 23 minutes at 48 kHz, half a gigabyte for two hands. A longer time is probably a number of
+samples or of milliseconds."""
 
 
 class WholeFrames:

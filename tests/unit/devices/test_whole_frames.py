@@ -48,8 +48,8 @@ def test_invalid_duration_is_refused_and_changes_no_state(seconds: Any) -> None:
 
 @pytest.mark.parametrize("rate_hz", [8000, 44100, 48000])
 def test_a_time_that_is_too_long_is_refused_as_a_time(rate_hz: int) -> None:
-    """Of 1000 s at 48 kHz, meant in milliseconds, the message spoke of frames and advised to give a time."""
-    session, longest_s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": rate_hz}), 16_777_216 // rate_hz
+    """Of 1000 s at 48 kHz, meant as milliseconds, the message spoke of frames and advised to give a time."""
+    session, longest_s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": rate_hz}), 67_108_864 // rate_hz
     with pytest.raises(SessionError, match=rf"seconds is \d+ s; it must be at most {longest_s} \[s\]\. Give seconds"):
         session.render_s(longest_s + 1)
     assert WholeFrames(rate_hz).of(longest_s) == longest_s * rate_hz
