@@ -337,7 +337,10 @@ export class Scene2HapClient extends EventTarget {
     };
     socket.onmessage = (event) => this.#receive(event.data);
     socket.onclose = (event) => this.#lost(event.code, event.reason);
-    socket.onerror = () => {}; // "close" follows and says as much
+    socket.onerror = () => {
+      // "close" follows and says as much, but not in Node.js 20 where there was no connection.
+      if (!this.#isOnline) this.#lost(1006, "");
+    };
     this.#timer = setTimeout(() => this.#lost(1006, "no welcome came"), WELCOME_WITHIN_S * 1000);
   }
 
@@ -360,7 +363,7 @@ export class Scene2HapClient extends EventTarget {
     this.#firstUnheard_s = Infinity;
     this.#gainsAt_s = -Infinity;
     if (socket) {
-      socket.onopen = socket.onmessage = socket.onclose = null;
+      socket.onopen = socket.onmessage = socket.onclose = socket.onerror = null;
       socket.close();
     }
     const error = new Scene2HapError(CONNECTION_LOST, message);
@@ -467,13 +470,14 @@ export class Scene2HapClient extends EventTarget {
   }
 
   /**
-   * Play a job or a bundle; from then on `sendFrame`.
+   * Play a job or a bundle; from then on `sendFrame`. For another level call `leave` and `connect` before.
    *
    * @param {{job?: number, bundle?: string, scene?: SceneJson, session?: object, user?: any, hands?: string[],
    *   moving?: string[], frames?: "newest" | "every", keep_s?: number, use_sink?: boolean}} request
    * @returns {Promise<Order>}
    */
   play(request) {
+    if (this.#hasSession) return this.#refuse("play");
     this.#forget();
     this.#played = { ...request, type: "play" };
     this.#learnPoses(request.scene);
@@ -487,9 +491,20 @@ export class Scene2HapClient extends EventTarget {
    * @returns {Promise<Order>}
    */
   watch({ session }) {
+    if (this.#hasSession) return this.#refuse("watch");
     this.#forget();
     this.#played = { type: "watch", session };
     return handled(this.#askUntilHeard(this.#played));
+  }
+
+  get #hasSession() {
+    return this.#isPlaying || (this.#isOnline && this.#order !== null && this.#played.type === "watch");
+  }
+
+  /** The server would refuse it too, but this side would have forgotten its session by then. */
+  #refuse(type) {
+    const problem = `${type} was not sent: this connection has a session. Call leave, then connect again.`;
+    return handled(Promise.reject(this.#fail("BridgeError", problem)));
   }
 
   /** Forget the last session, so that a new connection does not resume it. */
@@ -553,6 +568,7 @@ export class Scene2HapClient extends EventTarget {
 
   /** @param {{prefab?: string, job?: number, object: string, position_m: number[], rotation_xyzw?: number[]}} what */
   spawn(what) {
+    this.#learnPoses({ objects: [{ id: what.object, pose: what }] });
     return this.request({ ...what, type: "spawn" });
   }
 
@@ -603,6 +619,15 @@ export class Scene2HapClient extends EventTarget {
    */
   setPose(id, pose) {
     const known = this.#poses.get(id);
+    if (this.#isPlaying) {
+      const index = this.#objectIndex.get(id);
+      if (index !== undefined && index >= /** @type {Order} */ (this.#order).n_moving) {
+        const problem = `${JSON.stringify(id)} is not among the moving objects, so its pose is not sent.`;
+        this.#report(`${problem} Name all that moves in play or setMoving.`, "not moving");
+      } else if (index === undefined && !known) {
+        this.#report(`No object has the id ${JSON.stringify(id)}; its pose is not sent.`);
+      }
+    }
     if (!known) this.#poses.set(id, Float32Array.from(pose));
     // Compared as the server gets them, in single precision.
     else if (known.every((value, i) => value === Math.fround(pose[i]))) return;
@@ -779,10 +804,10 @@ export class Scene2HapClient extends EventTarget {
     this.#emit("gains", gains);
   }
 
-  /** Report what is wrong in many frames once. */
-  #report(message) {
-    if (this.#reported.has(message)) return;
-    this.#reported.add(message);
+  /** Report what is wrong in many frames once, or once for all that has the same key. */
+  #report(message, key = message) {
+    if (this.#reported.has(key)) return;
+    this.#reported.add(key);
     this.#fail("FrameError", message);
   }
 

@@ -293,6 +293,57 @@ test("a mistake that is in every frame is reported once", async () => {
   assert.equal(FakeSocket.last.frames[4].byteLength, 40); // frames go on, without both
 });
 
+test("poses that are not sent are reported once", async () => {
+  const client = makeClient();
+  client.setPose("cup", [1, 0, 0, 0, 0, 0, 1]); // before the session: it may come
+  await playing(client, { objects: ["phone", "table", "shelf"] });
+  for (let i = 0; i < 3; i += 1) {
+    client.setPose("phone", [i, 0, 0, 0, 0, 0, 1]);
+    for (const id of ["table", "shelf", "phnoe"]) client.setPose(id, [i, 0, 0, 0, 0, 0, 1]);
+    client.sendFrame(i);
+  }
+  const errors = heardOf("error").map(({ message }) => message);
+  assert.equal(errors.length, 2);
+  assert.match(errors[0], /"table" is not among the moving objects/);
+  assert.match(errors[1], /No object has the id "phnoe"/);
+});
+
+test("objects that were just added or spawned may be posed before the answer", async () => {
+  const client = makeClient();
+  await playing(client);
+  client.add({ id: "cup", name: "Cup", pose: { position_m: [0, 1, 0] }, geometry: { kind: "box", size_m: [1, 1, 1] } });
+  client.spawn({ prefab: "fan.bundle", object: "fan", position_m: [0, 2, 0] });
+  for (const id of ["cup", "fan"]) client.setPose(id, [1, 0, 0, 0, 0, 0, 1]);
+  assert.deepEqual(heardOf("error"), []);
+});
+
+test("a second play or watch is refused, and the session goes on", async () => {
+  const client = makeClient();
+  await playing(client);
+  for (const again of [() => client.play({ bundle: "cellar" }), () => client.watch({ session: "c2f1a09b" })]) {
+    await assert.rejects(again(), { kind: "BridgeError", message: /leave/ });
+  }
+  assert.equal(client.isPlaying, true);
+  assert.deepEqual(
+    FakeSocket.last.messages.map(({ type }) => type),
+    ["hello", "bake", "play"],
+  );
+  FakeSocket.last.fail(); // what comes back is the session
+  mock.timers.tick(250);
+  await online();
+  assert.equal(FakeSocket.last.messages[1].type, "resume");
+});
+
+test("an attempt that fails with an error event alone is made again", async () => {
+  // Node.js 20 has no "close" event where there was no connection.
+  const client = makeClient();
+  client.connect();
+  FakeSocket.last.onerror({});
+  assert.match(heardOf("offline")[0].message, /running/);
+  mock.timers.tick(250);
+  assert.equal(FakeSocket.opened.length, 2);
+});
+
 test("codes that no other attempt would change end the attempts", async () => {
   for (const code of [4000, 4001, 4003]) {
     const client = makeClient();
