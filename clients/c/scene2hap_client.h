@@ -152,7 +152,8 @@ typedef struct s2h_play_settings {
   const char *more;  /* such as {"keep_s": 60, "session": {"propagation": "modal_plate"}} */
 } s2h_play_settings;
 
-/* Play a session. It is kept, and resumed or played again whenever the connection is lost. */
+/* Play a session. It is kept, and resumed or played again whenever the connection is lost. While one is played, call
+ * s2h_leave first, as for another level. */
 uint32_t s2h_play(s2h_client *client, const s2h_play_settings *play);
 
 /* Get the gains of a session that another client plays. */
@@ -2388,10 +2389,16 @@ static void s2h__write_ids(s2h_writer *writer, const char *key, const char *cons
   s2h_write_end(writer, ']');
 }
 
-/* Want a session, in place of any other. */
+/* Want a session, in place of one that is wanted but not active. */
 static uint32_t s2h__want_session(s2h_client *c, const char *type, s2h_writer *writer, uint32_t job,
                                   bool needs_bake) {
-  uint32_t id = s2h__keep(c, type, writer, &c->play_fields);
+  uint32_t id;
+  if (c->state == S2H__ONLINE && c->play_phase == S2H__ACTIVE) { /* the server would refuse it */
+    s2h__note_error(c, "BridgeError", 0, "%s was not sent: this connection has a session; call s2h_leave first.", type);
+    s2h_writer_free(writer);
+    return 0;
+  }
+  id = s2h__keep(c, type, writer, &c->play_fields);
   if (id == 0) return 0;
   c->play_id = id;
   c->play_job = job;

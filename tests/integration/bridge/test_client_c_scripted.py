@@ -326,6 +326,27 @@ def test_a_refused_play_is_not_tried_again(driver: Driver) -> None:
         driver.do("run 0.2")
 
 
+def test_a_second_session_is_refused_and_the_first_goes_on(driver: Driver) -> None:
+    def handle(ws: ServerConnection, _: int) -> None:
+        begin(ws)
+        ws.send(gains_of(next_frame(ws).sequence))
+        next_request(ws, "leave")
+        assert begin(ws)["bundle"] == "c"
+        until_closed(ws)
+
+    with scripted(handle) as url:
+        start(driver, url)
+        assert driver.one("play 0 c phone newest")["request"] == 0
+        error = driver.until("error")
+        assert error["error"] == "BridgeError"
+        assert error["text"] == "play was not sent: this connection has a session; call s2h_leave first."
+        assert driver.one("frame 0.1")["sent"] == 1
+        driver.until("gains")
+        driver.one("request leave")
+        assert driver.one("play 0 c phone newest")["request"] > 0
+        driver.until("playing")
+
+
 def test_requests_carry_all_of_their_values_exactly(driver: Driver) -> None:
     heard: list[dict[str, Any]] = []
 
