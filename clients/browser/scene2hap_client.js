@@ -195,6 +195,12 @@ function deferred() {
   return found;
 }
 
+/** Whether the first n numbers are there and finite: the server refuses a whole frame for one that is not. */
+function areFinite(numbers, n) {
+  for (let i = 0; i < n; i += 1) if (!Number.isFinite(numbers[i])) return false;
+  return true;
+}
+
 /** Whether a request failed because the connection was lost. */
 const isLoss = (error) => error instanceof Scene2HapError && error.kind === CONNECTION_LOST;
 
@@ -618,6 +624,10 @@ export class Scene2HapClient extends EventTarget {
    * @param {ArrayLike<number>} pose x, y, z [m], quaternion x, y, z, w; see `poseOf`
    */
   setPose(id, pose) {
+    if (!areFinite(pose, 7)) {
+      this.#report(`The pose of ${JSON.stringify(id)} needs 7 finite numbers: x, y, z [m], quaternion x, y, z, w.`);
+      return;
+    }
     const known = this.#poses.get(id);
     if (this.#isPlaying) {
       const index = this.#objectIndex.get(id);
@@ -640,10 +650,12 @@ export class Scene2HapClient extends EventTarget {
    *
    * @param {string} hand
    * @param {string} object
-   * @param {ArrayLike<number>} point_m in the world
+   * @param {ArrayLike<number> | Iterable<number>} point_m in the world; a Vector3 of three.js is one
    */
   touch(hand, object, point_m) {
-    this.#touches.set(hand, { object, point_m: [point_m[0], point_m[1], point_m[2]] });
+    const point = Array.from(point_m ?? []);
+    if (areFinite(point, 3)) this.#touches.set(hand, { object, point_m: point });
+    else this.#report(`The touch of ${JSON.stringify(hand)} needs 3 finite numbers: x, y, z [m].`);
   }
 
   /** Lift a hand. @param {string} hand */
@@ -703,8 +715,9 @@ export class Scene2HapClient extends EventTarget {
 
   #learnPoses(scene) {
     for (const { id, pose } of scene?.objects ?? []) {
-      const { position_m = [0, 0, 0], rotation_xyzw = [0, 0, 0, 1] } = pose;
-      this.#poses.set(id, Float32Array.of(...position_m, ...rotation_xyzw));
+      const { position_m = [0, 0, 0], rotation_xyzw = [0, 0, 0, 1] } = pose ?? {};
+      const numbers = [...position_m, ...rotation_xyzw];
+      if (areFinite(numbers, 7)) this.#poses.set(id, Float32Array.from(numbers)); // the server refuses others
     }
   }
 

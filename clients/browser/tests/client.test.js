@@ -308,6 +308,36 @@ test("poses that are not sent are reported once", async () => {
   assert.match(errors[1], /No object has the id "phnoe"/);
 });
 
+test("a pose or point that is no number is reported once, and the rest of the frame goes on", async () => {
+  const client = makeClient();
+  await playing(client);
+  const vector = { x: 0.5, y: 0.72, z: 0, *[Symbol.iterator]() { yield* [0.5, 0.72, 0]; } }; // as three.js has them
+  client.touch("left", "table", vector);
+  for (let i = 0; i < 2; i += 1) {
+    client.setPose("phone", [0, NaN, 0, 0, 0, 0, 1]);
+    client.setPose("phone", [0, 1, 0]);
+    client.touch("right", "table", { x: 0, y: 0, z: 0 });
+    client.touch("right", "table", undefined);
+    client.touch("right", "table", [0, Infinity, 0]);
+    client.sendFrame(i);
+  }
+  const frame = FakeSocket.last.frames[1];
+  assert.equal(frame.getFloat32(40, true), 0.25); // the last pose that was one
+  assert.equal(frame.getUint32(36, true), 1);
+  assert.deepEqual([0, 4, 8].map((at) => frame.getFloat32(76 + at, true)), [0.5, Math.fround(0.72), 0]);
+  const errors = heardOf("error").map(({ message }) => message);
+  assert.equal(errors.length, 2);
+  assert.match(errors[0], /"phone" needs 7 finite numbers/);
+  assert.match(errors[1], /"right" needs 3 finite numbers/);
+});
+
+test("an object without a pose is left to the server to refuse", async () => {
+  const client = makeClient();
+  await playing(client);
+  client.add({ id: "cup" });
+  assert.deepEqual(FakeSocket.last.messages.at(-1).object, { id: "cup" });
+});
+
 test("objects that were just added or spawned may be posed before the answer", async () => {
   const client = makeClient();
   await playing(client);
