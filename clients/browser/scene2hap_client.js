@@ -635,7 +635,7 @@ export class Scene2HapClient extends EventTarget {
         const problem = `${JSON.stringify(id)} is not among the moving objects, so its pose is not sent.`;
         this.#report(`${problem} Name all that moves in play or setMoving.`, "not moving");
       } else if (index === undefined && !known) {
-        this.#report(`No object has the id ${JSON.stringify(id)}; its pose is not sent.`);
+        this.#reportUnknown(id, "its pose is not sent");
       }
     }
     if (!known) this.#poses.set(id, Float32Array.from(pose));
@@ -682,7 +682,7 @@ export class Scene2HapClient extends EventTarget {
     for (const [name, { object, point_m }] of this.#touches) {
       const [hand, index] = [order.hands.indexOf(name), this.#objectIndex.get(object) ?? -1];
       if (hand < 0) this.#report(`No hand is called ${JSON.stringify(name)}; hands are ${order.hands.join(", ")}.`);
-      else if (index < 0) this.#report(`No object has the id ${JSON.stringify(object)}; ${name} touches nothing.`);
+      else if (index < 0) this.#reportUnknown(object, `${name} touches nothing`);
       else touches.push({ hand, object: index, point_m });
     }
     const key = /** @type {string} */ (order.key);
@@ -822,6 +822,12 @@ export class Scene2HapClient extends EventTarget {
     if (this.#reported.has(key)) return;
     this.#reported.add(key);
     this.#fail("FrameError", message);
+  }
+
+  #reportUnknown(id, effect) {
+    // An object that is being added or spawned is not unknown.
+    const isChanging = [...this.#requests.values()].some(({ type }) => type === "add" || type === "spawn");
+    if (!isChanging) this.#report(`No object has the id ${JSON.stringify(id)}; ${effect}.`);
   }
 
   /** Report an error of this side in the form of the server's, and return it. */

@@ -267,8 +267,17 @@ namespace Scene2Hap
         /// <summary>Report a wrong id once, though it comes with each frame, until the order changes.</summary>
         void ReportOnce(string id, string problem)
         {
-            if (State == ClientState.Playing && id != null && reportedIds.Add(id))
+            if (State == ClientState.Playing && id != null && !IsChanging() && reportedIds.Add(id))
                 Report("'" + id + "'" + problem);
+        }
+
+        /// <summary>Whether a request waits whose answer may make the id right.</summary>
+        bool IsChanging()
+        {
+            foreach (Pending one in pending.Values)
+                if (one.Type == "add" || one.Type == "spawn" || one.Type == "moving")
+                    return true;
+            return false;
         }
 
         /// <summary>Send poses and touches. timeS is the game's clock [s]; going back begins a new one.

@@ -338,13 +338,18 @@ test("an object without a pose is left to the server to refuse", async () => {
   assert.deepEqual(FakeSocket.last.messages.at(-1).object, { id: "cup" });
 });
 
-test("objects that were just added or spawned may be posed before the answer", async () => {
+test("objects that were just added or spawned may be posed and touched before the answer", async () => {
   const client = makeClient();
   await playing(client);
   client.add({ id: "cup", name: "Cup", pose: { position_m: [0, 1, 0] }, geometry: { kind: "box", size_m: [1, 1, 1] } });
   client.spawn({ prefab: "fan.bundle", object: "fan", position_m: [0, 2, 0] });
   for (const id of ["cup", "fan"]) client.setPose(id, [1, 0, 0, 0, 0, 0, 1]);
+  client.touch("left", "fan", [1, 0, 0]);
+  client.sendFrame(1);
   assert.deepEqual(heardOf("error"), []);
+  for (const type of ["add", "spawn"]) FakeSocket.last.answer(type, { type: "error", error: "No", message: "no" });
+  client.sendFrame(2);
+  assert.match(heardOf("error").at(-1).message, /No object has the id "fan"/);
 });
 
 test("a second play or watch is refused, and the session goes on", async () => {

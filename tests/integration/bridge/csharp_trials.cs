@@ -216,6 +216,8 @@ public static class CSharpTrials
                 answer => asked = answer["job"].AsCount()));
             Until(client, () => prefab >= 0 && prefab == asked);
             Say("spawn {0}", client.Spawn("fan.bundle", "fan_17", new[] { 0, 0.82, 0 }));
+            Say("too early {0} {1}", client.SetPose("fan_17", 0, 0.82f, 0, 0, 0, 0, 1),
+                client.AddTouch("left", "fan_17", 0, 0.92f, 0)); // no error: the order is on its way
             Until(client, () => client.Objects.Count == 3);
             Say("request {0}", client.Request("spawn", new JsonText().Add("job", prefab).Add("object", "fan_18")
                 .Add("position_m", 0.3, 0.82, 0)));
