@@ -1260,6 +1260,7 @@ enum { S2H__TEXT = 1, S2H__BINARY = 2, S2H__CLOSE = 8, S2H__PING = 9, S2H__PONG 
 
 /* What is reported once for each order, though it is wrong in each frame. */
 enum { S2H__NO_POSE = 1, S2H__NO_HAND = 2, S2H__NO_OBJECT = 4, S2H__NOT_FINITE = 8, S2H__WRONG_GAINS = 16 };
+enum { S2H__NOT_MOVING = 32 };
 
 typedef struct s2h__order {
   uint16_t layout, n_bands;
@@ -2072,6 +2073,12 @@ bool s2h_set_pose(s2h_client *c, s2h_handle object, const float position_m[3], c
   if (!s2h__are_finite(pose, 7)) {
     s2h__report_once(c, S2H__NOT_FINITE, "its pose is not finite, so that it stays where it was.", name->text);
     return false;
+  }
+  if (s2h_is_playing(c) && c->orders[0] != NULL && name->object >= (int64_t)c->orders[0]->n_moving) {
+    s2h__report_once(c, S2H__NOT_MOVING,
+                     "it is not among the moving objects, so that its pose is not sent. Name it in s2h_play or "
+                     "s2h_set_moving.",
+                     name->text);
   }
   if (name->has_pose && memcmp(name->pose, pose, sizeof pose) == 0) return true;
   memcpy(name->pose, pose, sizeof pose);

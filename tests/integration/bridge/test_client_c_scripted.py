@@ -451,6 +451,28 @@ def test_invalid_frame_data_is_reported_once(driver: Driver) -> None:
         assert (hand, thing, [*point]) == (1, 1, [0.5, float(np.float32(0.72)), 0.0])
 
 
+def test_a_pose_of_an_object_that_does_not_move_is_reported_once(driver: Driver) -> None:
+    def handle(ws: ServerConnection, _: int) -> None:
+        begin(ws)
+        next_frame(ws)
+        say(ws, "warning", message="all")
+        until_closed(ws)
+
+    with scripted(handle) as url:
+        driver.do(f"create {url} - 0 0")
+        driver.one("pose table 0 1 0")  # which may yet be among those that move
+        driver.one("play 0 b phone newest")
+        driver.until("playing")
+        for height_m in (1, 2, 3):
+            driver.one(f"pose phone 0 {height_m} 0")
+            driver.one(f"pose table 0 {height_m} 0")
+            driver.one(f"pose lamp 0 {height_m} 0")  # which may come later
+        driver.do("frame 0.1")
+        driver.until("warning")
+        (text,) = [one["text"] for one in driver.before if one["event"] == "error"]
+    assert text.startswith("table: it is not among the moving objects")
+
+
 def test_client_reports_a_missing_server_and_connects_later(driver: Driver) -> None:
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
