@@ -195,6 +195,12 @@ function deferred() {
   return found;
 }
 
+/** Whether the first n numbers are there and finite: the server refuses a whole frame for one that is not. */
+function areFinite(numbers, n) {
+  for (let i = 0; i < n; i += 1) if (!Number.isFinite(numbers[i])) return false;
+  return true;
+}
+
 /** Whether a request failed because the connection was lost. */
 const isLoss = (error) => error instanceof Scene2HapError && error.kind === CONNECTION_LOST;
 
@@ -337,7 +343,10 @@ export class Scene2HapClient extends EventTarget {
     };
     socket.onmessage = (event) => this.#receive(event.data);
     socket.onclose = (event) => this.#lost(event.code, event.reason);
-    socket.onerror = () => {}; // "close" follows and says as much
+    socket.onerror = () => {
+      // "close" follows and says as much, but not in Node.js 20 where there was no connection.
+      if (!this.#isOnline) this.#lost(1006, "");
+    };
     this.#timer = setTimeout(() => this.#lost(1006, "no welcome came"), WELCOME_WITHIN_S * 1000);
   }
 
@@ -360,7 +369,7 @@ export class Scene2HapClient extends EventTarget {
     this.#firstUnheard_s = Infinity;
     this.#gainsAt_s = -Infinity;
     if (socket) {
-      socket.onopen = socket.onmessage = socket.onclose = null;
+      socket.onopen = socket.onmessage = socket.onclose = socket.onerror = null;
       socket.close();
     }
     const error = new Scene2HapError(CONNECTION_LOST, message);
@@ -467,13 +476,14 @@ export class Scene2HapClient extends EventTarget {
   }
 
   /**
-   * Play a job or a bundle; from then on `sendFrame`.
+   * Play a job or a bundle; from then on `sendFrame`. For another level call `leave` and `connect` before.
    *
    * @param {{job?: number, bundle?: string, scene?: SceneJson, session?: object, user?: any, hands?: string[],
    *   moving?: string[], frames?: "newest" | "every", keep_s?: number, use_sink?: boolean}} request
    * @returns {Promise<Order>}
    */
   play(request) {
+    if (this.#hasSession) return this.#refuse("play");
     this.#forget();
     this.#played = { ...request, type: "play" };
     this.#learnPoses(request.scene);
@@ -487,9 +497,20 @@ export class Scene2HapClient extends EventTarget {
    * @returns {Promise<Order>}
    */
   watch({ session }) {
+    if (this.#hasSession) return this.#refuse("watch");
     this.#forget();
     this.#played = { type: "watch", session };
     return handled(this.#askUntilHeard(this.#played));
+  }
+
+  get #hasSession() {
+    return this.#isPlaying || (this.#isOnline && this.#order !== null && this.#played.type === "watch");
+  }
+
+  /** The server would refuse it too, but this side would have forgotten its session by then. */
+  #refuse(type) {
+    const problem = `${type} was not sent: this connection has a session. Call leave, then connect again.`;
+    return handled(Promise.reject(this.#fail("BridgeError", problem)));
   }
 
   /** Forget the last session, so that a new connection does not resume it. */
@@ -553,6 +574,7 @@ export class Scene2HapClient extends EventTarget {
 
   /** @param {{prefab?: string, job?: number, object: string, position_m: number[], rotation_xyzw?: number[]}} what */
   spawn(what) {
+    this.#learnPoses({ objects: [{ id: what.object, pose: what }] });
     return this.request({ ...what, type: "spawn" });
   }
 
@@ -602,7 +624,20 @@ export class Scene2HapClient extends EventTarget {
    * @param {ArrayLike<number>} pose x, y, z [m], quaternion x, y, z, w; see `poseOf`
    */
   setPose(id, pose) {
+    if (!areFinite(pose, 7)) {
+      this.#report(`The pose of ${JSON.stringify(id)} needs 7 finite numbers: x, y, z [m], quaternion x, y, z, w.`);
+      return;
+    }
     const known = this.#poses.get(id);
+    if (this.#isPlaying) {
+      const index = this.#objectIndex.get(id);
+      if (index !== undefined && index >= /** @type {Order} */ (this.#order).n_moving) {
+        const problem = `${JSON.stringify(id)} is not among the moving objects, so its pose is not sent.`;
+        this.#report(`${problem} Name all that moves in play or setMoving.`, "not moving");
+      } else if (index === undefined && !known) {
+        this.#reportUnknown(id, "its pose is not sent");
+      }
+    }
     if (!known) this.#poses.set(id, Float32Array.from(pose));
     // Compared as the server gets them, in single precision.
     else if (known.every((value, i) => value === Math.fround(pose[i]))) return;
@@ -615,10 +650,12 @@ export class Scene2HapClient extends EventTarget {
    *
    * @param {string} hand
    * @param {string} object
-   * @param {ArrayLike<number>} point_m in the world
+   * @param {ArrayLike<number> | Iterable<number>} point_m in the world; a Vector3 of three.js is one
    */
   touch(hand, object, point_m) {
-    this.#touches.set(hand, { object, point_m: [point_m[0], point_m[1], point_m[2]] });
+    const point = Array.from(point_m ?? []);
+    if (areFinite(point, 3)) this.#touches.set(hand, { object, point_m: point });
+    else this.#report(`The touch of ${JSON.stringify(hand)} needs 3 finite numbers: x, y, z [m].`);
   }
 
   /** Lift a hand. @param {string} hand */
@@ -645,7 +682,7 @@ export class Scene2HapClient extends EventTarget {
     for (const [name, { object, point_m }] of this.#touches) {
       const [hand, index] = [order.hands.indexOf(name), this.#objectIndex.get(object) ?? -1];
       if (hand < 0) this.#report(`No hand is called ${JSON.stringify(name)}; hands are ${order.hands.join(", ")}.`);
-      else if (index < 0) this.#report(`No object has the id ${JSON.stringify(object)}; ${name} touches nothing.`);
+      else if (index < 0) this.#reportUnknown(object, `${name} touches nothing`);
       else touches.push({ hand, object: index, point_m });
     }
     const key = /** @type {string} */ (order.key);
@@ -678,8 +715,9 @@ export class Scene2HapClient extends EventTarget {
 
   #learnPoses(scene) {
     for (const { id, pose } of scene?.objects ?? []) {
-      const { position_m = [0, 0, 0], rotation_xyzw = [0, 0, 0, 1] } = pose;
-      this.#poses.set(id, Float32Array.of(...position_m, ...rotation_xyzw));
+      const { position_m = [0, 0, 0], rotation_xyzw = [0, 0, 0, 1] } = pose ?? {};
+      const numbers = [...position_m, ...rotation_xyzw];
+      if (areFinite(numbers, 7)) this.#poses.set(id, Float32Array.from(numbers)); // the server refuses others
     }
   }
 
@@ -779,11 +817,17 @@ export class Scene2HapClient extends EventTarget {
     this.#emit("gains", gains);
   }
 
-  /** Report what is wrong in many frames once. */
-  #report(message) {
-    if (this.#reported.has(message)) return;
-    this.#reported.add(message);
+  /** Report what is wrong in many frames once, or once for all that has the same key. */
+  #report(message, key = message) {
+    if (this.#reported.has(key)) return;
+    this.#reported.add(key);
     this.#fail("FrameError", message);
+  }
+
+  #reportUnknown(id, effect) {
+    // An object that is being added or spawned is not unknown.
+    const isChanging = [...this.#requests.values()].some(({ type }) => type === "add" || type === "spawn");
+    if (!isChanging) this.#report(`No object has the id ${JSON.stringify(id)}; ${effect}.`);
   }
 
   /** Report an error of this side in the form of the server's, and return it. */

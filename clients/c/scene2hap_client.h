@@ -152,7 +152,8 @@ typedef struct s2h_play_settings {
   const char *more;  /* such as {"keep_s": 60, "session": {"propagation": "modal_plate"}} */
 } s2h_play_settings;
 
-/* Play a session. It is kept, and resumed or played again whenever the connection is lost. */
+/* Play a session. It is kept, and resumed or played again whenever the connection is lost. While one is played, call
+ * s2h_leave first, as for another level. */
 uint32_t s2h_play(s2h_client *client, const s2h_play_settings *play);
 
 /* Get the gains of a session that another client plays. */
@@ -1259,6 +1260,7 @@ enum { S2H__TEXT = 1, S2H__BINARY = 2, S2H__CLOSE = 8, S2H__PING = 9, S2H__PONG 
 
 /* What is reported once for each order, though it is wrong in each frame. */
 enum { S2H__NO_POSE = 1, S2H__NO_HAND = 2, S2H__NO_OBJECT = 4, S2H__NOT_FINITE = 8, S2H__WRONG_GAINS = 16 };
+enum { S2H__NOT_MOVING = 32 };
 
 typedef struct s2h__order {
   uint16_t layout, n_bands;
@@ -2072,6 +2074,12 @@ bool s2h_set_pose(s2h_client *c, s2h_handle object, const float position_m[3], c
     s2h__report_once(c, S2H__NOT_FINITE, "its pose is not finite, so that it stays where it was.", name->text);
     return false;
   }
+  if (s2h_is_playing(c) && c->orders[0] != NULL && name->object >= (int64_t)c->orders[0]->n_moving) {
+    s2h__report_once(c, S2H__NOT_MOVING,
+                     "it is not among the moving objects, so that its pose is not sent. Name it in s2h_play or "
+                     "s2h_set_moving.",
+                     name->text);
+  }
   if (name->has_pose && memcmp(name->pose, pose, sizeof pose) == 0) return true;
   memcpy(name->pose, pose, sizeof pose);
   name->has_pose = c->has_moved = true;
@@ -2388,10 +2396,16 @@ static void s2h__write_ids(s2h_writer *writer, const char *key, const char *cons
   s2h_write_end(writer, ']');
 }
 
-/* Want a session, in place of any other. */
+/* Want a session, in place of one that is wanted but not active. */
 static uint32_t s2h__want_session(s2h_client *c, const char *type, s2h_writer *writer, uint32_t job,
                                   bool needs_bake) {
-  uint32_t id = s2h__keep(c, type, writer, &c->play_fields);
+  uint32_t id;
+  if (c->state == S2H__ONLINE && c->play_phase == S2H__ACTIVE) { /* the server would refuse it */
+    s2h__note_error(c, "BridgeError", 0, "%s was not sent: this connection has a session; call s2h_leave first.", type);
+    s2h_writer_free(writer);
+    return 0;
+  }
+  id = s2h__keep(c, type, writer, &c->play_fields);
   if (id == 0) return 0;
   c->play_id = id;
   c->play_job = job;

@@ -41,12 +41,13 @@ namespace Scene2Hap
         public bool UseSink = true;
     }
 
-    /// <summary>A source as the session has it.</summary>
+    /// <summary>A source as the last order had it: when the session began, or when objects last came or went.</summary>
     public sealed class Source
     {
         public string Id, State;
         public string[] States;
-        public double FrequencyHz;
+        public bool IsOn, IsMuted;
+        public double FrequencyHz, GainDb;
     }
 
     public sealed class Client : IDisposable
@@ -86,14 +87,17 @@ namespace Scene2Hap
         bool[] isPosed = new bool[0];
         int nUnposed;
         bool hasReportedUnposed;
+        readonly HashSet<string> reportedIds = new HashSet<string>();
         TouchedPoint[] touches = new TouchedPoint[16];
         int nTouches;
         bool hasGains;
         uint lastGains;
         long gainsAt, unansweredSince;
 
-        /// <summary>Requests that are sent again by themselves after a lost connection, or need not be.</summary>
+        /// <summary>Requests that are sent again by themselves after a lost connection, or need not be, unless they came
+        /// by Request.</summary>
         static readonly HashSet<string> sentAgain = new HashSet<string> { "bake", "follow", "play", "resume", "leave" };
+        static readonly string[] ownTypes = { "hello", "play", "resume", "watch", "leave" };
 
         sealed class Pending
         {
@@ -103,6 +107,9 @@ namespace Scene2Hap
 
         /// <summary>Something went wrong: text of the server, or of the connection.</summary>
         public event Action<string> Error;
+        /// <summary>The server refused a request, or a bake failed: type of the request ("" for none), and its message,
+        /// whose `error` is the kind, such as "BundleIncomplete". Error follows with the same as text.</summary>
+        public event Action<string, Json> RequestFailed;
         /// <summary>The server warns: text.</summary>
         public event Action<string> Warning;
         /// <summary>A bake goes on: job, stage, item, done, of.</summary>
@@ -225,7 +232,12 @@ namespace Scene2Hap
 
         public bool SetPose(string id, float x, float y, float z, float qx, float qy, float qz, float qw)
         {
-            return SetPose(ObjectIndex(id), x, y, z, qx, qy, qz, qw);
+            int index = ObjectIndex(id);
+            if (index < 0)
+                ReportOnce(id, " is no object of the session; its pose is not sent.");
+            else if (index >= nMoving)
+                ReportOnce(id, " is not among the moving objects; its pose is not sent. Name it in Moving or SetMoving.");
+            return SetPose(index, x, y, z, qx, qy, qz, qw);
         }
 
         /// <summary>Let a hand touch an object at a point of the world [m], in the next frame only. False if there is
@@ -244,7 +256,28 @@ namespace Scene2Hap
 
         public bool AddTouch(string hand, string objectId, float x, float y, float z)
         {
-            return AddTouch(HandIndex(hand), ObjectIndex(objectId), x, y, z);
+            int handIndex = HandIndex(hand), objectIndex = ObjectIndex(objectId);
+            if (handIndex < 0)
+                ReportOnce(hand, " is no hand of the session; its touch is not sent.");
+            else if (objectIndex < 0)
+                ReportOnce(objectId, " is no object of the session; its touch is not sent.");
+            return AddTouch(handIndex, objectIndex, x, y, z);
+        }
+
+        /// <summary>Report a wrong id once, though it comes with each frame, until the order changes.</summary>
+        void ReportOnce(string id, string problem)
+        {
+            if (State == ClientState.Playing && id != null && !IsChanging() && reportedIds.Add(id))
+                Report("'" + id + "'" + problem);
+        }
+
+        /// <summary>Whether a request waits whose answer may make the id right.</summary>
+        bool IsChanging()
+        {
+            foreach (Pending one in pending.Values)
+                if (one.Type == "add" || one.Type == "spawn" || one.Type == "moving")
+                    return true;
+            return false;
         }
 
         /// <summary>Send poses and touches. timeS is the game's clock [s]; going back begins a new one.
@@ -260,8 +293,9 @@ namespace Scene2Hap
             if (nUnposed > 0 && !hasReportedUnposed)
             {
                 hasReportedUnposed = true;
-                Report("no pose was set for " + objects[Array.IndexOf(isPosed, false)] + " and " + (nUnposed - 1)
-                    + " more; call SetPose for each moving object. No poses are sent until then.");
+                Report("no pose was set for " + objects[Array.IndexOf(isPosed, false)]
+                    + (nUnposed > 1 ? " and " + (nUnposed - 1) + " more" : "")
+                    + "; call SetPose for each moving object. No poses are sent until then.");
             }
             int nPoses = nUnposed > 0 ? 0 : nMoving;
             if (!connection.PostFrame(layout, key, sequence + 1, timeS, poses, nPoses, touches, nTouches))
@@ -327,25 +361,28 @@ namespace Scene2Hap
 
         // ---- requests. They return false, and raise Error, if they cannot be sent.
 
-        /// <summary>Let the server infer how a scene vibrates. Done as soon as there is a connection.</summary>
-        public bool Bake(string sceneJson, string userPrompt = null, string configJson = null)
+        /// <summary>Let the server infer how a scene vibrates. Done as soon as there is a connection. `save` is the path
+        /// below the server's root to which it writes the bundle.</summary>
+        public bool Bake(string sceneJson, string userPrompt = null, string configJson = null, string save = null)
         {
             if (!IsObject("scene", sceneJson) || !IsObject("config", configJson))
                 return false;
             JsonText fields = new JsonText().Add("type", "bake").Raw("scene", sceneJson);
-            return Want(fields, userPrompt, configJson);
+            return Want(fields, userPrompt, configJson, save);
         }
 
         /// <summary>As Bake, of a scene file below the server's root.</summary>
-        public bool BakeFile(string path, string userPrompt = null, string configJson = null)
+        public bool BakeFile(string path, string userPrompt = null, string configJson = null, string save = null)
         {
             if (!IsObject("config", configJson))
                 return false;
-            return Want(new JsonText().Add("type", "bake").Add("path", path), userPrompt, configJson);
+            return Want(new JsonText().Add("type", "bake").Add("path", path), userPrompt, configJson, save);
         }
 
-        bool Want(JsonText fields, string userPrompt, string configJson)
+        bool Want(JsonText fields, string userPrompt, string configJson, string save)
         {
+            if (save != null)
+                fields.Add("save", save);
             if (userPrompt != null)
                 fields.Add("user_prompt", userPrompt);
             if (configJson != null)
@@ -379,7 +416,7 @@ namespace Scene2Hap
         public bool SetSource(
             string source, bool? on = null, string state = null, double? gainDb = null, bool? mute = null)
         {
-            JsonText fields = Request("set_source").Add("source", source);
+            JsonText fields = Begun("set_source").Add("source", source);
             if (on.HasValue)
                 fields.Add("on", on.Value);
             if (state != null)
@@ -389,7 +426,7 @@ namespace Scene2Hap
 
         public bool SetUser(double? gainDb = null, bool? mute = null, string profileJson = null)
         {
-            JsonText fields = Request("set_user");
+            JsonText fields = Begun("set_user");
             if (!IsObject("profile", profileJson) || !AddLevel(fields, gainDb, mute))
                 return false;
             if (profileJson != null)
@@ -402,7 +439,7 @@ namespace Scene2Hap
             string objectId, double x, double y, double z, double? speedMS = null, double? impulseNS = null,
             string withObject = null)
         {
-            JsonText fields = Request("strike").Add("object", objectId);
+            JsonText fields = Begun("strike").Add("object", objectId);
             bool areFinite = AddNumbers(fields, "point_m", x, y, z)
                 && (!speedMS.HasValue || AddNumber(fields, "speed_m_s", speedMS.Value))
                 && (!impulseNS.HasValue || AddNumber(fields, "impulse_n_s", impulseNS.Value));
@@ -414,43 +451,55 @@ namespace Scene2Hap
         /// <summary>Put an object into the scene; SceneText.BoxObject and MeshObject write it.</summary>
         public bool Add(string objectJson)
         {
-            return IsObject("object", objectJson) && Send("add", Request("add").Raw("object", objectJson));
+            return IsObject("object", objectJson) && Send("add", Begun("add").Raw("object", objectJson));
         }
 
         /// <summary>Put a copy of a prefab into the scene: the path of a bundle of one object.</summary>
-        public bool Spawn(string prefab, string objectId, double[] positionM, double[] rotationXyzw)
+        public bool Spawn(string prefab, string objectId, double[] positionM, double[] rotationXyzw = null)
         {
-            JsonText fields = Request("spawn").Add("prefab", prefab).Add("object", objectId);
+            JsonText fields = Begun("spawn").Add("prefab", prefab).Add("object", objectId);
             bool areFinite = AddNumbers(fields, "position_m", positionM)
-                && AddNumbers(fields, "rotation_xyzw", rotationXyzw);
+                && (rotationXyzw == null || AddNumbers(fields, "rotation_xyzw", rotationXyzw));
             return areFinite && Send("spawn", fields);
         }
 
-        public bool Remove(string objectId) { return Send("remove", Request("remove").Add("object", objectId)); }
+        public bool Remove(string objectId) { return Send("remove", Begun("remove").Add("object", objectId)); }
 
         /// <summary>Choose the objects whose poses are sent.</summary>
-        public bool SetMoving(IEnumerable<string> ids) { return Send("moving", Request("moving").Add("moving", ids)); }
+        public bool SetMoving(IEnumerable<string> ids) { return Send("moving", Begun("moving").Add("moving", ids)); }
 
-        public bool Pause() { return Send("pause", Request("pause")); }
-        public bool Unpause() { return Send("unpause", Request("unpause")); }
+        public bool Pause() { return Send("pause", Begun("pause")); }
+        public bool Unpause() { return Send("unpause", Begun("unpause")); }
 
         /// <summary>Ask what a hand feels and why; the answer's `text` is for people.</summary>
         public bool Explain(string hand, Action<Json> answered)
         {
-            return Send("explain", Request("explain").Add("hand", hand), answered);
+            return Send("explain", Begun("explain").Add("hand", hand), answered);
         }
 
         /// <summary>Ask for counters of the session and its frames.</summary>
-        public bool Stats(Action<Json> answered) { return Send("stats", Request("stats"), answered); }
+        public bool Stats(Action<Json> answered) { return Send("stats", Begun("stats"), answered); }
 
         /// <summary>End the session. The connection stays; Dispose closes it.</summary>
         public bool Leave()
         {
             play = null;
-            return session != null && Send("leave", Request("leave"));
+            return session != null && Send("leave", Begun("leave"));
         }
 
-        static JsonText Request(string type) { return new JsonText().Add("type", type); }
+        /// <summary>Send any request of the protocol that has no method here, such as "cancel". `answered` gets the
+        /// answer; errors come by RequestFailed and Error.</summary>
+        public bool Request(string type, JsonText fields, Action<Json> answered = null)
+        {
+            if (Array.IndexOf(ownTypes, type) >= 0)
+                return Refuse(type + " is the client's own request; call Play or Leave.");
+            JsonText begun = Begun(type);
+            if (fields != null)
+                begun.AddFields(fields);
+            return Send(type, begun, answered ?? (answer => { }));
+        }
+
+        static JsonText Begun(string type) { return new JsonText().Add("type", type); }
 
         bool Send(string type, JsonText fields, Action<Json> answered = null)
         {
@@ -527,11 +576,11 @@ namespace Scene2Hap
             if (mustBake && bake != null)
                 SendBake();
             else if (mustFollow)
-                mustFollow = !Send("follow", Request("follow").Add("job", bakingJob));
+                mustFollow = !Send("follow", Begun("follow").Add("job", bakingJob));
             if (State == ClientState.Playing || isStarting)
                 return;
             if (session != null)
-                isStarting = Send("resume", Request("resume").Add("session", session).Add("key", keyText));
+                isStarting = Send("resume", Begun("resume").Add("session", session).Add("key", keyText));
             else if (play != null && (play.Bundle != null || job >= 0))
                 SendPlay();
         }
@@ -568,7 +617,7 @@ namespace Scene2Hap
 
         void SendPlay()
         {
-            JsonText fields = Request("play");
+            JsonText fields = Begun("play");
             if (play.Bundle != null)
                 fields.Add("bundle", play.Bundle);
             else
@@ -631,7 +680,7 @@ namespace Scene2Hap
             pending.Clear();
             Report(one.Text);
             foreach (Pending request in lost)
-                if (!sentAgain.Contains(request.Type))
+                if (request.Answered != null || !sentAgain.Contains(request.Type))
                     Report("the connection was lost before " + request.Type + " was answered; send it again.");
             if (hasLeft)
                 Raise(Left);
@@ -695,11 +744,9 @@ namespace Scene2Hap
                 case "error":
                     HandleError(message, request);
                     break;
-                default: // done, explanation, stats; and what later servers add
-                    if (request != null && request.Answered != null)
-                        request.Answered(message);
-                    break;
             }
+            if (type != "error" && request != null && request.Answered != null)
+                request.Answered(message);
         }
 
         void HandleError(Json message, Pending request)
@@ -729,7 +776,11 @@ namespace Scene2Hap
             if (isJobGone || (isResume && kind == "UnknownSession"))
                 Advance();
             else
+            {
+                if (RequestFailed != null)
+                    RequestFailed(failedType, message);
                 Report((request != null ? failedType + ": " : "") + kind + ": " + text);
+            }
         }
 
         void EndSession()
@@ -766,7 +817,7 @@ namespace Scene2Hap
             unansweredSince = 0;
             if (play == null) // Leave was called meanwhile
             {
-                Send("leave", Request("leave"));
+                Send("leave", Begun("leave"));
                 return;
             }
             if (isResumed)
@@ -812,6 +863,7 @@ namespace Scene2Hap
             poses = newPoses;
             isPosed = newIsPosed;
             hasReportedUnposed = false;
+            reportedIds.Clear();
             nTouches = 0;
             layout = (int)number;
             nMoving = (int)moving;
@@ -863,7 +915,10 @@ namespace Scene2Hap
                     Id = one["id"].AsText(),
                     State = one["state"].AsText(),
                     States = Texts(one["states"]) ?? new string[0],
+                    IsOn = one["is_on"].AsBool(true),
+                    IsMuted = one["is_muted"].AsBool(),
                     FrequencyHz = one["frequency_hz"].AsNumber(),
+                    GainDb = one["gain_db"].AsNumber(),
                 };
             }
             return found;

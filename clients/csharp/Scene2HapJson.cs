@@ -242,7 +242,7 @@ namespace Scene2Hap
         readonly StringBuilder text = new StringBuilder("{");
         bool needsComma;
 
-        void Next(string name)
+        StringBuilder Next(string name)
         {
             if (needsComma)
                 text.Append(',');
@@ -252,6 +252,7 @@ namespace Scene2Hap
                 Quote(name);
                 text.Append(':');
             }
+            return text;
         }
 
         public JsonText Add(string name, string value)
@@ -297,6 +298,14 @@ namespace Scene2Hap
         {
             Next(name);
             text.Append(json);
+            return this;
+        }
+
+        /// <summary>Add all fields of another object.</summary>
+        public JsonText AddFields(JsonText others)
+        {
+            if (others.text.Length > 1)
+                Next(null).Append(others.text.ToString(1, others.text.Length - 1));
             return this;
         }
 

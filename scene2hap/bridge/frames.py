@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import struct
 from typing import NamedTuple
 
@@ -94,8 +95,15 @@ def decode_frame(message: bytes) -> Frame:
         )
     poses = np.frombuffer(message, "<f4", 7 * n_poses, _BEGIN).reshape(n_poses, 7)
     touches = np.frombuffer(message, _TOUCH, n_touches, _BEGIN + _POSE_BYTES * n_poses)
-    if not (np.isfinite(time_s) and np.isfinite(poses).all() and np.isfinite(touches["point_m"]).all()):
-        raise BridgeError("a frame has a number that is not finite; send finite positions, rotations, points and time.")
+    if not math.isfinite(time_s):
+        raise BridgeError("the time of a frame is not finite; send finite seconds.")
+    for name, rows in (("pose", poses), ("touch", touches["point_m"])):
+        are_finite = np.isfinite(rows).all(axis=1)
+        if not are_finite.all():
+            raise BridgeError(
+                f"{name} {are_finite.argmin()} of a frame has a number that is not finite; send finite positions, "
+                f"rotations and points. The first {name} is number 0."
+            )
     return Frame(layout, key, sequence, time_s, poses, touches)
 
 

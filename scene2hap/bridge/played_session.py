@@ -112,7 +112,7 @@ class PlayedSession:
             self._changes.forget()
             raise
         self.sequence = frame.sequence
-        intensities = self._go_on(frame.time_s)
+        intensities = self._go_on(frame.time_s, touches)
         self._tell_impacts()
         return self._gains(found, frame.time_s, intensities)
 
@@ -168,7 +168,7 @@ class PlayedSession:
                 touches.append(Touch(layout.hands[hand], layout.objects[thing], (x, y, z)))
         return touches
 
-    def _go_on(self, time_s: float) -> NDArray[np.float32]:
+    def _go_on(self, time_s: float, touches: Sequence[Touch]) -> NDArray[np.float32]:
         """Advance the session's clock. Returns the intensity at each hand until the next frame, (n_hands,)."""
         session, silent = self.session, np.zeros(len(self.session.hands), np.float32)
         before_s, self._time_s = self._time_s, time_s
@@ -183,8 +183,11 @@ class PlayedSession:
         if self._sink is not None:
             self._sink.pull(n)  # type: ignore[attr-defined]  # no clock
             return silent
-        if not n:  # two frames at one time of a coarse clock
-            return self._intensities if len(self._intensities) == len(silent) else silent
+        if not n:  # two frames at one time of a coarse clock, or of a game that stands still
+            if self.is_paused or len(self._intensities) != len(silent):
+                return silent
+            touching = {touch.hand for touch in touches}
+            return np.where([hand in touching for hand in session.hands], self._intensities, silent)
         block = session.render(n)
         amplitudes: NDArray[np.float32] = np.sqrt(2.0 * (block * block).mean(axis=0))
         self._intensities = np.minimum(amplitudes, np.float32(1.0))

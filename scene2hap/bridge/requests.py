@@ -18,6 +18,7 @@ from scene2hap.bridge.messages import Document
 from scene2hap.bridge.played_session import PlayedSession
 from scene2hap.bridge.session_warnings import Tell
 from scene2hap.bundle import HapticBundle
+from scene2hap.bundle.folder_replacement import require_replaceable
 from scene2hap.common import checks
 from scene2hap.devices import SINKS
 from scene2hap.devices.protocol import ActuatorSink
@@ -122,6 +123,8 @@ def _bake(request: messages.Bake, client: Client, host: Host) -> Document:
         )
     _require_no_file(request.config)
     target = None if request.save is None else host.below_root(request.save)
+    if target is not None:
+        require_replaceable(target)  # check before the model costs money
     path = None if request.path is None else host.below_root(request.path)
     host.jobs.require_place()
     # Inputs are taken last: a refused bake leaves no scene file, and the client's pictures for the next one.

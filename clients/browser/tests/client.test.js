@@ -293,6 +293,92 @@ test("a mistake that is in every frame is reported once", async () => {
   assert.equal(FakeSocket.last.frames[4].byteLength, 40); // frames go on, without both
 });
 
+test("poses that are not sent are reported once", async () => {
+  const client = makeClient();
+  client.setPose("cup", [1, 0, 0, 0, 0, 0, 1]); // before the session: it may come
+  await playing(client, { objects: ["phone", "table", "shelf"] });
+  for (let i = 0; i < 3; i += 1) {
+    client.setPose("phone", [i, 0, 0, 0, 0, 0, 1]);
+    for (const id of ["table", "shelf", "phnoe"]) client.setPose(id, [i, 0, 0, 0, 0, 0, 1]);
+    client.sendFrame(i);
+  }
+  const errors = heardOf("error").map(({ message }) => message);
+  assert.equal(errors.length, 2);
+  assert.match(errors[0], /"table" is not among the moving objects/);
+  assert.match(errors[1], /No object has the id "phnoe"/);
+});
+
+test("a pose or point that is no number is reported once, and the rest of the frame goes on", async () => {
+  const client = makeClient();
+  await playing(client);
+  const vector = { x: 0.5, y: 0.72, z: 0, *[Symbol.iterator]() { yield* [0.5, 0.72, 0]; } }; // as three.js has them
+  client.touch("left", "table", vector);
+  for (let i = 0; i < 2; i += 1) {
+    client.setPose("phone", [0, NaN, 0, 0, 0, 0, 1]);
+    client.setPose("phone", [0, 1, 0]);
+    client.touch("right", "table", { x: 0, y: 0, z: 0 });
+    client.touch("right", "table", undefined);
+    client.touch("right", "table", [0, Infinity, 0]);
+    client.sendFrame(i);
+  }
+  const frame = FakeSocket.last.frames[1];
+  assert.equal(frame.getFloat32(40, true), 0.25); // the last pose that was one
+  assert.equal(frame.getUint32(36, true), 1);
+  assert.deepEqual([0, 4, 8].map((at) => frame.getFloat32(76 + at, true)), [0.5, Math.fround(0.72), 0]);
+  const errors = heardOf("error").map(({ message }) => message);
+  assert.equal(errors.length, 2);
+  assert.match(errors[0], /"phone" needs 7 finite numbers/);
+  assert.match(errors[1], /"right" needs 3 finite numbers/);
+});
+
+test("an object without a pose is left to the server to refuse", async () => {
+  const client = makeClient();
+  await playing(client);
+  client.add({ id: "cup" });
+  assert.deepEqual(FakeSocket.last.messages.at(-1).object, { id: "cup" });
+});
+
+test("objects that were just added or spawned may be posed and touched before the answer", async () => {
+  const client = makeClient();
+  await playing(client);
+  client.add({ id: "cup", name: "Cup", pose: { position_m: [0, 1, 0] }, geometry: { kind: "box", size_m: [1, 1, 1] } });
+  client.spawn({ prefab: "fan.bundle", object: "fan", position_m: [0, 2, 0] });
+  for (const id of ["cup", "fan"]) client.setPose(id, [1, 0, 0, 0, 0, 0, 1]);
+  client.touch("left", "fan", [1, 0, 0]);
+  client.sendFrame(1);
+  assert.deepEqual(heardOf("error"), []);
+  for (const type of ["add", "spawn"]) FakeSocket.last.answer(type, { type: "error", error: "No", message: "no" });
+  client.sendFrame(2);
+  assert.match(heardOf("error").at(-1).message, /No object has the id "fan"/);
+});
+
+test("a second play or watch is refused, and the session goes on", async () => {
+  const client = makeClient();
+  await playing(client);
+  for (const again of [() => client.play({ bundle: "cellar" }), () => client.watch({ session: "c2f1a09b" })]) {
+    await assert.rejects(again(), { kind: "BridgeError", message: /leave/ });
+  }
+  assert.equal(client.isPlaying, true);
+  assert.deepEqual(
+    FakeSocket.last.messages.map(({ type }) => type),
+    ["hello", "bake", "play"],
+  );
+  FakeSocket.last.fail(); // what comes back is the session
+  mock.timers.tick(250);
+  await online();
+  assert.equal(FakeSocket.last.messages[1].type, "resume");
+});
+
+test("an attempt that fails with an error event alone is made again", async () => {
+  // Node.js 20 has no "close" event where there was no connection.
+  const client = makeClient();
+  client.connect();
+  FakeSocket.last.onerror({});
+  assert.match(heardOf("offline")[0].message, /running/);
+  mock.timers.tick(250);
+  assert.equal(FakeSocket.opened.length, 2);
+});
+
 test("codes that no other attempt would change end the attempts", async () => {
   for (const code of [4000, 4001, 4003]) {
     const client = makeClient();

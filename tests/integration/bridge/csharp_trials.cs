@@ -21,6 +21,7 @@ public static class CSharpTrials
             case "play-until-felt": return Play(arguments[1], 60, 1);
             case "play-until-outdated": return Play(arguments[1], 60, 2);
             case "requests": return Requests(arguments[1]);
+            case "levels": return Levels(arguments[1]);
             case "json": return ReadJson();
             case "garbage": return Garbage(arguments[1], int.Parse(arguments[2]), arguments.Length > 3);
             case "first-errors": return FirstErrors(arguments[1], int.Parse(arguments[2]));
@@ -161,6 +162,73 @@ public static class CSharpTrials
             Say("not finite {0}", client.SetPose("phone", float.NaN, 0, 0, 0, 0, 0, 1));
             step("leave", client.Leave());
             Say("state {0}", client.State);
+        }
+        return 0;
+    }
+
+    static bool Until(Client client, Func<bool> isDone)
+    {
+        Stopwatch begun = Stopwatch.StartNew();
+        while (!isDone() && begun.Elapsed.TotalSeconds < 60)
+        {
+            client.Poll();
+            Thread.Sleep(5);
+        }
+        return isDone();
+    }
+
+    /// <summary>A level that is baked and saved when its bundle is missing, prefabs that are baked while it is played,
+    /// and the same level again, from its bundle.</summary>
+    static int Levels(string url)
+    {
+        string desk = Desk();
+        string fan = new SceneText("fan")
+            .AddBox("fan", "Electric fan", new[] { 0, 0.0, 0 }, null, new[] { 0.2, 0.2, 0.2 })
+            .ToString();
+        using (Client client = Printing(url))
+        {
+            int levels = 0;
+            bool hasLeft = false;
+            long prefab = -1, asked = -1;
+            PlayOptions saved = new PlayOptions { Bundle = "desk.bundle", Moving = new[] { "phone" } };
+            client.RequestFailed += (type, message) =>
+            {
+                Say("failed {0} {1}", type, message["error"].AsText());
+                if (type != "play" || levels > 0)
+                    return;
+                client.Bake(desk, save: "desk.bundle");
+                client.Play(new PlayOptions { Moving = new[] { "phone" } });
+            };
+            client.Baked += message => prefab = message["job"].AsCount();
+            client.Started += () => levels++;
+            client.Left += () => hasLeft = true;
+            client.Play(saved);
+            client.Connect();
+            Until(client, () => levels == 1);
+            Source phone = client.Sources[client.SourceIndex("phone")];
+            Say("source {0} {1} {2}", phone.IsOn, phone.IsMuted, phone.GainDb);
+            for (int i = 0; i < 3; i++)
+            {
+                Say("poses {0} {1}", client.SetPose("phnoe", 0, 0, 0, 0, 0, 0, 1), client.SetPose("table", 0, 0, 0, 0, 0, 0, 1));
+                Say("touches {0} {1}", client.AddTouch("Left", "table", 0, 0, 0), client.AddTouch("left", "tabel", 0, 0, 0));
+            }
+            Say("request {0}", client.Request("bake", new JsonText().Raw("scene", fan).Add("save", "fan.bundle"),
+                answer => asked = answer["job"].AsCount()));
+            Until(client, () => prefab >= 0 && prefab == asked);
+            Say("spawn {0}", client.Spawn("fan.bundle", "fan_17", new[] { 0, 0.82, 0 }));
+            Say("too early {0} {1}", client.SetPose("fan_17", 0, 0.82f, 0, 0, 0, 0, 1),
+                client.AddTouch("left", "fan_17", 0, 0.92f, 0)); // no error: the order is on its way
+            Until(client, () => client.Objects.Count == 3);
+            Say("request {0}", client.Request("spawn", new JsonText().Add("job", prefab).Add("object", "fan_18")
+                .Add("position_m", 0.3, 0.82, 0)));
+            Until(client, () => client.Objects.Count == 4);
+            foreach (string type in new[] { "hello", "play", "resume", "watch", "leave" })
+                Say("request {0}", client.Request(type, null));
+            client.Leave();
+            Until(client, () => hasLeft);
+            client.Play(saved);
+            Until(client, () => levels == 2);
+            Say("level {0} of {1}", levels, client.Objects.Count);
         }
         return 0;
     }

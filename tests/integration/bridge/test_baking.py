@@ -134,6 +134,13 @@ def test_a_bake_is_cancelled(bridge: Bridge, root: Path, desk: HapticBundle) -> 
             client.ask("bake", scene=scene)
 
 
+def test_an_unusable_save_is_refused_before_the_bake(bridge: Bridge, root: Path, desk: HapticBundle) -> None:
+    """A language model may cost money."""
+    (root / "desk.json").write_text(desk.snapshot.to_json())
+    with Client(bridge().url) as client, pytest.raises(Refused, match="is not a folder"):
+        client.ask("bake", path="desk.json", save="desk.json")
+
+
 def test_a_refused_bake_leaves_no_file_and_keeps_the_pictures(bridge: Bridge, desk: HapticBundle) -> None:
     server, scene = bridge(), json.loads(desk.snapshot.to_json())
     with Client(server.url) as client:

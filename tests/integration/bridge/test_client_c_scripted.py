@@ -326,6 +326,27 @@ def test_a_refused_play_is_not_tried_again(driver: Driver) -> None:
         driver.do("run 0.2")
 
 
+def test_a_second_session_is_refused_and_the_first_goes_on(driver: Driver) -> None:
+    def handle(ws: ServerConnection, _: int) -> None:
+        begin(ws)
+        ws.send(gains_of(next_frame(ws).sequence))
+        next_request(ws, "leave")
+        assert begin(ws)["bundle"] == "c"
+        until_closed(ws)
+
+    with scripted(handle) as url:
+        start(driver, url)
+        assert driver.one("play 0 c phone newest")["request"] == 0
+        error = driver.until("error")
+        assert error["error"] == "BridgeError"
+        assert error["text"] == "play was not sent: this connection has a session; call s2h_leave first."
+        assert driver.one("frame 0.1")["sent"] == 1
+        driver.until("gains")
+        driver.one("request leave")
+        assert driver.one("play 0 c phone newest")["request"] > 0
+        driver.until("playing")
+
+
 def test_requests_carry_all_of_their_values_exactly(driver: Driver) -> None:
     heard: list[dict[str, Any]] = []
 
@@ -428,6 +449,28 @@ def test_invalid_frame_data_is_reported_once(driver: Driver) -> None:
     for frame in frames:
         ((hand, thing, point),) = frame.touches.tolist()
         assert (hand, thing, [*point]) == (1, 1, [0.5, float(np.float32(0.72)), 0.0])
+
+
+def test_a_pose_of_an_object_that_does_not_move_is_reported_once(driver: Driver) -> None:
+    def handle(ws: ServerConnection, _: int) -> None:
+        begin(ws)
+        next_frame(ws)
+        say(ws, "warning", message="all")
+        until_closed(ws)
+
+    with scripted(handle) as url:
+        driver.do(f"create {url} - 0 0")
+        driver.one("pose table 0 1 0")  # which may yet be among those that move
+        driver.one("play 0 b phone newest")
+        driver.until("playing")
+        for height_m in (1, 2, 3):
+            driver.one(f"pose phone 0 {height_m} 0")
+            driver.one(f"pose table 0 {height_m} 0")
+            driver.one(f"pose lamp 0 {height_m} 0")  # which may come later
+        driver.do("frame 0.1")
+        driver.until("warning")
+        (text,) = [one["text"] for one in driver.before if one["event"] == "error"]
+    assert text.startswith("table: it is not among the moving objects")
 
 
 def test_client_reports_a_missing_server_and_connects_later(driver: Driver) -> None:

@@ -15,6 +15,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -202,6 +203,36 @@ def test_every_request(trial: Callable[..., list[str]]) -> None:
     assert errors[2] == "error point_m is not finite; give finite numbers."
     assert "not finite False" in lines
     assert lines[-2:] == ["left", "state Ready"]
+
+
+def test_levels_and_prefabs_are_baked_and_saved(trial: Callable[..., list[str]], tmp_path: Path) -> None:
+    with serving(root=str(tmp_path)) as server:
+        lines = trial("levels", server.url)
+    assert (tmp_path / "desk.bundle").is_dir()
+    own = ("hello", "play", "resume", "watch", "leave")
+    refused = [(f"error {one} is the client's own request; call Play or Leave.", "request False") for one in own]
+    assert [line for line in lines if not line.startswith(("error play: BundleIncomplete", "warning"))] == [
+        "failed play BundleIncomplete",
+        "started",
+        "source True False 0",
+        "error 'phnoe' is no object of the session; its pose is not sent.",
+        "error 'table' is not among the moving objects; its pose is not sent. Name it in Moving or SetMoving.",
+        "poses False False",
+        "error 'Left' is no hand of the session; its touch is not sent.",
+        "error 'tabel' is no object of the session; its touch is not sent.",
+        "touches False False",
+        *2 * ["poses False False", "touches False False"],
+        "request True",
+        "spawn True",
+        "too early False False",
+        "order 1 of 3",
+        "request True",
+        "order 1 of 4",
+        *chain.from_iterable(refused),
+        "left",
+        "started",
+        "level 2 of 2",
+    ]
 
 
 def test_session_restarts_after_a_server_restart(programs: Path) -> None:

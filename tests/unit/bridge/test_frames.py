@@ -77,14 +77,25 @@ def test_a_frame_without_poses_or_touches() -> None:
         (GAINS, "kind 2"),
         (FRAME[:32] + b"\xff" * 4 + FRAME[36:], "4294967295 poses"),
         (FRAME[:36] + struct.pack("<I", 1025) + FRAME[40:68] + 1025 * FRAME[68:], "1025 touches; it must have at most"),
-        (FRAME[:24] + struct.pack("<d", float("nan")) + FRAME[32:], "not finite"),
-        (FRAME[:40] + struct.pack("<f", float("inf")) + FRAME[44:], "not finite"),
-        (FRAME[:76] + struct.pack("<f", float("nan")) + FRAME[80:], "not finite"),
+        (FRAME[:24] + struct.pack("<d", float("nan")) + FRAME[32:], "^the time of a frame is not finite"),
+        (
+            FRAME[:40] + struct.pack("<f", float("inf")) + FRAME[44:],
+            "^pose 0 of a frame has a number that is not",
+        ),
+        (FRAME[:76] + struct.pack("<f", float("nan")) + FRAME[80:], "^touch 0 of a frame has a number that is not"),
     ],
 )
 def test_invalid_frame_is_refused(message: bytes, says: str) -> None:
     with pytest.raises(BridgeError, match=says):
         decode_frame(message)
+
+
+def test_the_pose_that_is_not_finite_is_named() -> None:
+    """One of many objects may leave the world when an engine's physics fails."""
+    poses = np.zeros((5, 7))
+    poses[3, 6] = np.inf
+    with pytest.raises(BridgeError, match="^pose 3 of a frame"):
+        decode_frame(encode_frame(1, bytes(8), 1, 0.0, poses, []))
 
 
 @given(st.binary(max_size=200) | st.binary(max_size=100).map(lambda tail: FRAME[:40] + tail))

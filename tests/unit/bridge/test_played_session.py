@@ -67,16 +67,38 @@ def test_a_pose_of_a_failed_update_is_passed_on_with_the_next(
     assert played.session.poses["phone"].position_m == pytest.approx((x + 0.1, y, z))
 
 
-def test_two_frames_at_one_time_have_the_intensity_of_the_first() -> None:
-    """The clock of a game may be coarser than its frames."""
+@pytest.fixture
+def game() -> Iterator[PlayedSession]:
+    """A session without a sink, whose gains the game plays itself."""
     scene, bundle = table_with_two_phones()
     with HapticSession(scene, bundle, hands=("left",)) as session:
         session.wait_prepared()
-        played = PlayedSession(session, MOVING, None, lambda document: None)
-        touches = [(0, played.layout.objects.index("phone"), session.poses["phone"].position_m)]
-        intensities = [
-            float(played.take(frame(played, k, time_s, touches)).intensities[0])
-            for k, time_s in enumerate((0.0, 0.5, 0.5, 1.0), 1)
-        ]
+        yield PlayedSession(session, MOVING, None, lambda document: None)
+
+
+def intensity(played: PlayedSession, number: int, time_s: float, *, touches: bool = True) -> float:
+    phone = played.layout.objects.index("phone")
+    given = [(0, phone, played.session.poses["phone"].position_m)] if touches else []
+    found = played.take(frame(played, number, time_s, given))
+    assert found is not None
+    return float(found.intensities[0])
+
+
+def test_two_frames_at_one_time_have_the_intensity_of_the_first(game: PlayedSession) -> None:
+    """The clock of a game may be coarser than its frames."""
+    intensities = [intensity(game, k, time_s) for k, time_s in enumerate((0.0, 0.5, 0.5, 1.0), 1)]
     assert intensities[1] > 0
     assert intensities[2] == intensities[1]
+
+
+def test_a_paused_game_whose_clock_stands_still_feels_nothing(game: PlayedSession) -> None:
+    assert [intensity(game, 1, 0.0), intensity(game, 2, 0.5)][1] > 0
+    game.pause()
+    assert intensity(game, 3, 0.5) == 0
+    game.unpause()
+    assert intensity(game, 4, 1.0) > 0
+
+
+def test_a_lifted_hand_feels_nothing_while_the_clock_stands_still(game: PlayedSession) -> None:
+    assert [intensity(game, 1, 0.0), intensity(game, 2, 0.5)][1] > 0
+    assert intensity(game, 3, 0.5, touches=False) == 0
