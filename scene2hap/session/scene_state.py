@@ -18,7 +18,6 @@ from scene2hap.scene.objects import VERTICAL, Contact, SceneObject, unknown_obje
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import RemovedIds
-from scene2hap.session.impacts.slams import RelativePoses, Slam, is_closed, may_enclose, slam_of
 from scene2hap.session.network import BoxCentres, Corners, PlatePoses, body_of, own_half_m, own_middle_m, rigid_body_of
 from scene2hap.session.reach import Reach, reach_over
 
@@ -112,25 +111,6 @@ class SceneState:
     def half_m(self, object_id: str) -> Vector:
         """Half the sides of this box [m]."""
         return own_half_m(self.objects[object_id])
-
-    def slam(self, object_id: str, way: Callable[[str], RelativePoses]) -> Slam | None:
-        """Return what an object may slam against, see `slam_of`; None also without a hinge.
-
-        Parameters: way : returns the way relative to another object.
-        """
-        item = self.objects[object_id]
-        holder = None if item.hinge is None else self.objects.get(item.hinge.to)
-        if item.hinge is None or holder is None:
-            return None
-        return slam_of(item, item.hinge, holder, way(holder.id))
-
-    def drawer(self, object_id: str, other: str) -> Callable[[RelativePoses], bool] | None:
-        """Return the test whether an object is a drawer that is shut, see `slams.is_closed`; None if another clearly
-        does not enclose it, as for most pairs."""
-        item, holder, pose = self.objects[object_id], self.objects[other], self.graph.pose
-        if not may_enclose(holder, item):
-            return None
-        return lambda way: is_closed(item, holder, way, (pose(object_id), pose(other)), self.up_axis)
 
     def on_plate(self, object_id: str, point_m: tuple[float, float, float]) -> tuple[float, float] | None:
         """Coordinates of a world point [m] along length and width of an object's plate; None without a plate."""

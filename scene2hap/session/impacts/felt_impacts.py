@@ -123,8 +123,7 @@ class Impacts:
     ) -> None:
         self._config, self._state, self._playback = config, state, playback
         self._field, self._user_factor = field, user_factor
-        followed = (state.graph, state.middle_m, state.half_m, state.slam, state.drawer)
-        self._landings = Landings(*followed, config.control_period_s, state.up_axis) if config.impacts else None
+        self._landings = Landings(state, config.control_period_s) if config.impacts else None
         self._last: dict[frozenset[str | None], _Report] = {}
         self._updated_at = 0
         self._looked_at: object = None
