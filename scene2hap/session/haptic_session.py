@@ -310,7 +310,7 @@ class HapticSession:
         require_addable(object, haptics, loops)
         if haptics is None and loops is None:
             haptics, loops = self._bundle.objects.get(object.id), self._bundle.loops.get(object.id)
-        self._add(object, haptics, loops or {}, self._bundle, object.id)
+        self._add(object, haptics, loops or {}, _level(self._bundle, object.id))
 
     def spawn(self, prefab: HapticBundle, object_id: str, pose: Pose) -> None:
         """Add a copy of a prefab, which is a bundle of one object, as `bake_object` makes it.
@@ -322,7 +322,8 @@ class HapticSession:
         require_prefab(prefab, pose)
         (original,) = prefab.snapshot.objects
         copy = replace(original, id=object_id, name=object_id, pose=pose)
-        self._add(copy, prefab.objects.get(original.id), prefab.loops.get(original.id, {}), prefab, original.id)
+        haptics, loops = prefab.objects.get(original.id), prefab.loops.get(original.id, {})
+        self._add(copy, haptics, loops, _level(prefab, original.id))
 
     def use_bundle(self, bundle: HapticBundle) -> None:
         """Play a corrected bundle of the same scene: loops that differ are cross-faded, levels change at once.
@@ -669,31 +670,20 @@ class HapticSession:
         return WholeFrames(self.config.sample_rate_hz)
 
     def _add(
-        self,
-        item: SceneObject,
-        haptics: ObjectHaptics | None,
-        loops: Mapping[str, HapticLoop],
-        corrected: HapticBundle,
-        its_id: str,
+        self, item: SceneObject, haptics: ObjectHaptics | None, loops: Mapping[str, HapticLoop], level: Level
     ) -> None:
-        """Add an object and play its loops; see `_put`."""
-        self._put(item, haptics, loops, corrected, its_id)
+        self._put_in(item, haptics, loops, level)
         self._play_sources()
         self._mistakes.in_added(item.id, haptics, loops)
 
-    def _put(
-        self,
-        item: SceneObject,
-        haptics: ObjectHaptics | None,
-        loops: Mapping[str, HapticLoop],
-        corrected: HapticBundle,
-        its_id: str,
+    def _put_in(
+        self, item: SceneObject, haptics: ObjectHaptics | None, loops: Mapping[str, HapticLoop], level: Level
     ) -> None:
-        """Add an object with the level and the mute switch that a bundle has for `its_id`; `_play_sources` plays it."""
+        """Add an object, whose loops are silent until `_play_sources`."""
         change = self._state.add(item, haptics)
         self._shapes.order([item.geometry.mesh])
         if loops:
-            self._sources.add(item.id, loops, haptics, _level(corrected, its_id))
+            self._sources.add(item.id, loops, haptics, level)
         self._hand_frames.apply(change, sources_changed=bool(loops))
 
     def _exchange(self, object_id: str) -> None:
@@ -702,7 +692,8 @@ class HapticSession:
         before, bundle = self._sources.get(object_id), self._bundle
         progress = None if before is None else self._switching.progress(object_id)
         self._take_out(object_id)
-        self._put(item, bundle.objects.get(object_id), bundle.loops.get(object_id, {}), bundle, object_id)
+        haptics, loops = bundle.objects.get(object_id), bundle.loops.get(object_id, {})
+        self._put_in(item, haptics, loops, _level(bundle, object_id))
         after, instead = self._sources.get(object_id), None
         if before is not None and after is not None and progress is not None:
             self._switching.go_on(object_id, before, progress)
@@ -753,4 +744,5 @@ class HapticSession:
 
 
 def _level(bundle: HapticBundle, object_id: str) -> Level:
+    """Return a new knob at the level that a bundle has for a source."""
     return Level(bundle.gain_db(object_id), bundle.is_muted(object_id))
