@@ -465,7 +465,7 @@ class HapticSession:
     def _with_running(self, felt: FeltSource) -> FeltSource:
         """Add the amplitude of a start or stop that is under way."""
         source = self._sources[felt.source_id]
-        if source.passing is None:
+        if source.transition_row is None:
             return felt
         amplitude = self._switching.running(felt.source_id).amplitude
         return felt.while_passing(amplitude, is_start=source.is_running)
