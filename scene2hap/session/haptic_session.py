@@ -141,8 +141,8 @@ class HapticSession:
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
         self._mistakes = LikelyMistakes(self._state)
         # No reference to the session itself: only the garbage collector could free such a cycle.
-        frames, level = self._hand_frames, self._sources.user
-        self._impacts = Impacts(self.config, self._state, self._playback, lambda: frames.field, lambda: level.factor)
+        frames = self._hand_frames
+        self._impacts = Impacts(self.config, self._state, self._playback, lambda: frames.field, self._sources.user)
         self._output = Output(sink, self.config)
         self._user: UserProfile | None = None
         if user is not None:
@@ -224,7 +224,7 @@ class HapticSession:
         frame, gained = self._hand_frames.frame(felt, moved or (), is_paused=self._playback.is_paused)
         if gained is not None:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
-        self._impacts.follow(moved, felt, self._user, stamp)
+        self._impacts.follow(moved, felt, stamp)
         self._output.feed(frame)
         if not self._output.is_listened_to and (problem := self._output.problem) is not None:
             self._mistakes.in_sink(problem)
@@ -292,7 +292,7 @@ class HapticSession:
             self._state.require(with_object)
         strike = given_strike(object_id, point_m, with_object, speed_m_s, impulse_n_s)
         self._mistakes.in_strike(object_id, strike.point_m)
-        return self._impacts.strike(strike, self._hand_frames.felt, self._user, self._playback.now)
+        return self._impacts.strike(strike, self._hand_frames.felt, self._playback.now)
 
     def add(
         self,
@@ -716,6 +716,7 @@ class HapticSession:
     def _use_profile(self, user: UserProfile) -> None:
         self._user = user
         self._hand_frames.use_profile(user)
+        self._impacts.use_profile(user)
         limits = user.limits(self._hands, self.config.actuator.name)
         self._playback.hold(limits)
         self._output.hold(limits)
