@@ -41,7 +41,7 @@ class SceneState:
         bodies = ((item.id, self._body(item, bundle.objects.get(item.id))) for item in scene.objects)
         self.bodies: Mapping[str, Body] = {object_id: body for object_id, body in bodies if body is not None}
         self.graph: ContactGraph = ContactGraph(scene)
-        self._spelling = _Spelling()
+        self._contact_lists = _ContactLists()
         self._corners: Corners = {}
         self.ids: frozenset[str] = frozenset(self.objects)
         self._removed = RemovedIds()
@@ -142,26 +142,26 @@ class SceneState:
         be called later and in another thread, since listing contacts takes longer than an update may.
         """
         objects, bodies, poses, junctions = self.objects, self.bodies, self.poses, dict(self.graph.junctions)
-        spelling, corners, up_axis = self._spelling, self._corners, self._scene.up_axis
+        lists, corners, up_axis = self._contact_lists, self._corners, self._scene.up_axis
         middles_m = BoxCentres(objects, poses)
 
         def put_together(near: Collection[str]) -> ModelInput:
             if source_ids is None:
                 everywhere = PlatePoses(objects, bodies, poses, corners)
-                return ModelInput(ContactNetwork(bodies, spelling.of(junctions), everywhere, up_axis, middles_m))
+                return ModelInput(ContactNetwork(bodies, lists.of(junctions), everywhere, up_axis, middles_m))
             reach = reach_over(junctions, {*bodies, *source_ids}, source_ids)
             everything = reach.objects
             reached = reach.objects_near(near) or everything
             among = {object_id: body for object_id, body in bodies.items() if object_id in reached}
             within = {pair: one for pair, one in junctions.items() if pair[0] in reached}
             corners_of = PlatePoses(objects, among, poses, corners)
-            network = ContactNetwork(among, spelling.of(within), corners_of, up_axis, middles_m)
+            network = ContactNetwork(among, lists.of(within), corners_of, up_axis, middles_m)
             return ModelInput(network, None if len(reached) == len(everything) else reached)
 
         return put_together
 
 
-class _Spelling:
+class _ContactLists:
     """Converts junctions to contacts, and caches the contacts of unchanged junctions."""
 
     def __init__(self) -> None:

@@ -246,7 +246,7 @@ class Landings:
                 step = dot(self._motion.nearing_m(object_id, other, point, before, last), normal)
                 onward = dot(self._motion.nearing_m(object_id, other, point, last, now), normal)
                 most = LEFT * step * shorter if other in beside else 0.0
-                middle_m = self._motion.middle_nearing_m(object_id, other, point, normal, first, last)
+                middle_m = self._motion.middle_path_m(object_id, other, point, normal, first, last)[last]
                 if onward > most or middle_m < ROLLS * closing:
                     continue
                 if not self._stop.is_sudden(object_id, other, point, normal, [*steps, (now, time_s)]):
