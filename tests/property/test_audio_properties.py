@@ -9,8 +9,10 @@ from scene2hap.audio import analysis
 from scene2hap.audio.bands import split_bands
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.files import encoded, read_clip
-from scene2hap.audio.loops import apply_seam, find_seam, loop_pair
+from scene2hap.audio.loops import loop_pair
+from scene2hap.audio.loops.seam_search import find_seam
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.seam import apply_seam
 from scene2hap.audio.select import explain_choice
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.haptics import Bands

@@ -14,7 +14,7 @@ import pytest
 
 from scene2hap.audio.analysis import dynamic_range_db
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.loops import find_seam
+from scene2hap.audio.loops.seam_search import find_seam
 from scene2hap.audio.protocol import AudioSource
 from scene2hap.audio.select import select_clip
 from scene2hap.audio.sources import SOURCES
