@@ -187,7 +187,7 @@ class VibrationDescription:
     def __post_init__(self) -> None:
         for name in ("object_category", "state", "sentence", "keywords", "material"):
             checks.text(name, getattr(self, name), error=ConfigError)
-        checks.seed(self.seed, error=ConfigError)
+        checks.seed(self.seed)
 
 
 _HERTZ = "It is in Hz, not in kHz."

@@ -33,8 +33,9 @@ from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.levels import sensation_level_db
-from scene2hap.audio.loops import apply_seam, find_seam
+from scene2hap.audio.loops.seam_search import find_seam
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.seam import apply_seam
 from scene2hap.audio.select import explain_choice
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.haptics import ActuatorProfile

@@ -12,7 +12,7 @@ from scene2hap.audio.distinctness import rhythm_hz
 from scene2hap.audio.haptic_loop import HapticLoop, Sensation
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB, at_level, felt_level_db, sensation_level_db
 from scene2hap.audio.loops import loop_pair
-from scene2hap.audio.protocol import ConversionContext, TactileConverter
+from scene2hap.audio.protocol import ConversionContext, TactileConverter, follows_target
 from scene2hap.audio.spreading import Placement, SpreadLimits, Voice, spread
 from scene2hap.haptics import ActuatorProfile
 
@@ -58,7 +58,7 @@ def plan_scene(
     levels = [sensation_level_db(source.intensity) for source in sources]
     analysed = _analysed(sources, levels, actuator)
     anchors = [anchor for anchor, _ in analysed]
-    follows = bool(getattr(converter, "follows_target", False))
+    follows = follows_target(converter)
     known = [i for i, anchor in enumerate(anchors) if anchor is not None]
     voices = [
         Voice(

@@ -20,7 +20,7 @@ from scene2hap.common import checks
 from scene2hap.common.text_files import LFS_ADVICE, draft_of, is_lfs_pointer, is_there, path_in_c
 from scene2hap.errors import AudioError, reason_of, unwritable
 
-PcmSubtype = Literal["PCM_16", "PCM_24", "PCM_32"]
+PcmSubtype = Literal["PCM_16", "PCM_24"]
 
 MAX_FILE_S = 600.0
 """Longer files are refused before they are decoded [s]; assumed: no sound of an object needs ten minutes, and a
@@ -60,7 +60,7 @@ read it."""
 
 _BLOCK_FRAMES = 1 << 18
 
-_BITS: dict[str, int] = {"PCM_16": 16, "PCM_24": 24, "PCM_32": 32}
+_BITS: dict[str, int] = {"PCM_16": 16, "PCM_24": 24}
 
 
 def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
@@ -222,20 +222,6 @@ def _is_cut_short(path: Path) -> bool:
     return header[:4] == b"RIFF" and stated not in (0, 0xFFFFFFFF) and path.stat().st_size < stated + 8
 
 
-def write_wav(path: str | Path, samples: ArrayLike, sample_rate_hz: int, subtype: PcmSubtype = "PCM_24") -> None:
-    """Write samples (n,) or (n, channels) in [-1, 1] as a WAV file, whole or not at all.
-
-    Equal samples give equal bytes (the header of a float WAV would contain the time). Samples become integers of
-    2^(bits-1) steps per unit, the scale at which they are read back, so that a file read and written again does not
-    change; only +1 itself loses one step.
-    Raises: AudioError: a sample beyond full scale or not finite, a wrong shape, or a path that cannot be written.
-    """
-    path = Path(path)
-    content = encoded(samples, sample_rate_hz, subtype, path=path)
-    with written_whole(path) as beside:
-        beside.write_bytes(content)
-
-
 def fits_flac(sample_rate_hz: int) -> bool:
     """Return True if a FLAC frame can store this rate: 16 bits for hertz, or for tens of hertz."""
     return sample_rate_hz < 2**16 or (sample_rate_hz % 10 == 0 and sample_rate_hz < 10 * 2**16)
@@ -251,10 +237,14 @@ def encoded(
     is_loop: bool = False,
     loop: tuple[int, int] | None = None,
 ) -> bytes:
-    """Return the content of a sound file, see `write_wav`; `path` is named in errors.
+    """Return the content of a sound file of samples (n,) or (n, channels) in [-1, 1].
 
-    `is_loop` : a WAV marks itself as a loop, for samplers and game audio tools; `loop` : it marks these samples
-    [first, end). Raises: AudioError.
+    Equal samples give equal bytes (the header of a float WAV would contain the time). Samples become integers of
+    2^(bits-1) steps per unit, the scale at which they are read back, so that a file read and written again does not
+    change; only +1 itself loses one step.
+    Parameters: path : named in errors; is_loop : a WAV marks itself as a loop, for samplers and game audio tools;
+    loop : it marks these samples [first, end).
+    Raises: AudioError: a sample beyond full scale or not finite, or a wrong shape.
     """
     rate = int(checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=1, error=AudioError))
     if subtype not in _BITS:
@@ -267,14 +257,14 @@ def encoded(
 
 
 def as_stored(clip: AudioClip) -> AudioClip:
-    """Return the clip as it is after `write_wav` and `read_clip`, scaled down first if it exceeds full scale."""
+    """Return the clip as it is after `encoded` and `read_clip`, scaled down first if it exceeds full scale."""
     peak = float(np.abs(clip.samples).max())
     samples = clip.samples / peak if peak > 1.0 else clip.samples
     return replace(clip, samples=(_steps(samples, 24) / 2.0**23).astype(np.float32))
 
 
 def sound_digest(clip: AudioClip) -> str:
-    """Return a digest of a clip's samples: equal for clips that `write_wav` writes alike; credits have no effect."""
+    """Return a digest of a clip's samples: equal for clips that have equal files; credits have no effect."""
     samples = _steps(clip.samples, 24)
     return hashlib.sha256(f"{clip.sample_rate_hz} Hz ".encode() + samples.astype("<i4").tobytes()).hexdigest()[:32]
 

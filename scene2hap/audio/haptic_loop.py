@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, overload
 
 from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.protocol import ConversionContext, TactileConverter, follows_target
 from scene2hap.audio.run_curve import RunCurve
 from scene2hap.audio.threshold import NOTICED_DB, TACTILE_RANGE_HZ
 from scene2hap.common import checks
@@ -15,8 +16,6 @@ from scene2hap.errors import AudioError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
-
-    from scene2hap.audio.protocol import ConversionContext, TactileConverter
 
 
 @dataclass(frozen=True)
@@ -55,7 +54,7 @@ class Sensation:
         The context's frequencies are left out where the converter ignores them: a low-pass may have removed the
         component that stands for the source.
         """
-        if not getattr(converter, "follows_target", False) or context.own_hz is None:
+        if not follows_target(converter) or context.own_hz is None:
             return cls(level_db, asked_level_db)
         rough_hz = context.rough_hz if getattr(converter, "keeps_roughness", False) else None
         return cls(level_db, asked_level_db, context.own_hz, context.target_hz or context.own_hz, rough_hz)

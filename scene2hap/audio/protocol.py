@@ -86,9 +86,14 @@ class TactileConverter(Protocol):
         ...
 
 
+def follows_target(converter: object) -> bool:
+    """Return True if a converter declares that it moves a source to `target_hz`."""
+    return bool(getattr(converter, "follows_target", False))
+
+
 def follows_anchor(converter: object, context: ConversionContext) -> bool:
     """Return True if the converter makes the vibration of the component that the analysis of the whole sound chose."""
-    return context.band_db is not None and bool(getattr(converter, "follows_target", False))
+    return context.band_db is not None and follows_target(converter)
 
 
 _STREAM: Members = {"process": ("block",), "finish": ()}

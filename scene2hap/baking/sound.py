@@ -20,6 +20,7 @@ from scene2hap.audio.felt_loop import Plan, SourceClip, felt_loop, plan_scene
 from scene2hap.audio.files import as_stored
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.loops import middle_of
+from scene2hap.audio.protocol import follows_target
 from scene2hap.audio.recorded_runs import recorded_runs
 from scene2hap.audio.select import Choice, explain_choice
 from scene2hap.audio.sources.chain import gather
@@ -365,7 +366,7 @@ def _pitch_hz(object_id: str, state: str, overrides: Mapping[str, Override], con
     if override is None or wanted_hz is None or override.locked:
         return None
     limits = f"pitch_hz of {object_id!r} is {wanted_hz:g} Hz; "
-    if not getattr(config.tactile, "follows_target", False):
+    if not follows_target(config.tactile):
         name = type(config.tactile).__name__
         warn_of(f"{limits}{name} does not move sources. Use the converter 'adaptive'.", BundleWarning)
         return None

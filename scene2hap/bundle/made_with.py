@@ -53,7 +53,7 @@ class MadeWith:
             tactile, seed = fields["tactile"], fields["seed"]
             if not isinstance(tactile, dict):
                 raise TypeError("tactile must be an object")
-            seed = checks.seed(seed, error=ConfigError)
+            seed = checks.seed(seed)
             actuator = ActuatorProfile(**fields["actuator"])
             return cls(actuator, tactile, SpreadLimits.parse(fields["spread"]), seed)
         except (ConfigError, KeyError, TypeError, ValueError) as cause:

@@ -271,9 +271,9 @@ def whole(
     return int(result)
 
 
-def seed(value: object, *, error: type[Scene2HapError]) -> int:
-    """Return a seed, a whole number of 64 bits, with or without a sign; else raise `error`."""
-    return whole("seed", value, "-", at_least=-(2**63), at_most=2**64 - 1, error=error)
+def seed(value: object) -> int:
+    """Return a seed, a whole number of 64 bits, with or without a sign. Raises: ConfigError."""
+    return whole("seed", value, "-", at_least=-(2**63), at_most=2**64 - 1, error=ConfigError)
 
 
 def flag(name: str, value: object, *, error: type[Scene2HapError]) -> bool:

@@ -141,8 +141,8 @@ class HapticSession:
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
         self._mistakes = LikelyMistakes(self._state)
         # No reference to the session itself: only the garbage collector could free such a cycle.
-        frames, level = self._hand_frames, self._sources.user
-        self._impacts = Impacts(self.config, self._state, self._playback, lambda: frames.field, lambda: level.factor)
+        frames = self._hand_frames
+        self._impacts = Impacts(self.config, self._state, self._playback, lambda: frames.field, self._sources.user)
         self._output = Output(sink, self.config)
         self._user: UserProfile | None = None
         if user is not None:
@@ -224,7 +224,7 @@ class HapticSession:
         frame, gained = self._hand_frames.frame(felt, moved or (), is_paused=self._playback.is_paused)
         if gained is not None:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
-        self._impacts.follow(moved, felt, self._user, stamp)
+        self._impacts.follow(moved, felt, stamp)
         self._output.feed(frame)
         if (problem := self._output.untold_problem) is not None:
             self._mistakes.in_sink(problem)
@@ -292,7 +292,7 @@ class HapticSession:
             self._state.require(with_object)
         strike = given_strike(object_id, point_m, with_object, speed_m_s, impulse_n_s)
         self._mistakes.in_strike(object_id, strike.point_m)
-        return self._impacts.strike(strike, self._hand_frames.felt, self._user, self._playback.now)
+        return self._impacts.strike(strike, self._hand_frames.felt, self._playback.now)
 
     def add(
         self,
@@ -310,7 +310,7 @@ class HapticSession:
         require_addable(object, haptics, loops)
         if haptics is None and loops is None:
             haptics, loops = self._bundle.objects.get(object.id), self._bundle.loops.get(object.id)
-        self._add(object, haptics, loops or {}, self._bundle, object.id)
+        self._add(object, haptics, loops or {}, _level(self._bundle, object.id))
 
     def spawn(self, prefab: HapticBundle, object_id: str, pose: Pose) -> None:
         """Add a copy of a prefab, which is a bundle of one object, as `bake_object` makes it.
@@ -322,7 +322,8 @@ class HapticSession:
         require_prefab(prefab, pose)
         (original,) = prefab.snapshot.objects
         copy = replace(original, id=object_id, name=object_id, pose=pose)
-        self._add(copy, prefab.objects.get(original.id), prefab.loops.get(original.id, {}), prefab, original.id)
+        haptics, loops = prefab.objects.get(original.id), prefab.loops.get(original.id, {})
+        self._add(copy, haptics, loops, _level(prefab, original.id))
 
     def use_bundle(self, bundle: HapticBundle) -> None:
         """Play a corrected bundle of the same scene: loops that differ are cross-faded, levels change at once.
@@ -464,7 +465,7 @@ class HapticSession:
     def _with_running(self, felt: FeltSource) -> FeltSource:
         """Add the amplitude of a start or stop that is under way."""
         source = self._sources[felt.source_id]
-        if source.passing is None:
+        if source.transition_row is None:
             return felt
         amplitude = self._switching.running(felt.source_id).amplitude
         return felt.while_passing(amplitude, is_start=source.is_running)
@@ -669,31 +670,20 @@ class HapticSession:
         return WholeFrames(self.config.sample_rate_hz)
 
     def _add(
-        self,
-        item: SceneObject,
-        haptics: ObjectHaptics | None,
-        loops: Mapping[str, HapticLoop],
-        corrected: HapticBundle,
-        its_id: str,
+        self, item: SceneObject, haptics: ObjectHaptics | None, loops: Mapping[str, HapticLoop], level: Level
     ) -> None:
-        """Add an object and play its loops; see `_put`."""
-        self._put(item, haptics, loops, corrected, its_id)
+        self._put_in(item, haptics, loops, level)
         self._play_sources()
         self._mistakes.in_added(item.id, haptics, loops)
 
-    def _put(
-        self,
-        item: SceneObject,
-        haptics: ObjectHaptics | None,
-        loops: Mapping[str, HapticLoop],
-        corrected: HapticBundle,
-        its_id: str,
+    def _put_in(
+        self, item: SceneObject, haptics: ObjectHaptics | None, loops: Mapping[str, HapticLoop], level: Level
     ) -> None:
-        """Add an object with the level and the mute switch that a bundle has for `its_id`; `_play_sources` plays it."""
+        """Add an object, whose loops are silent until `_play_sources`."""
         change = self._state.add(item, haptics)
         self._shapes.order([item.geometry.mesh])
         if loops:
-            self._sources.add(item.id, loops, haptics, _level(corrected, its_id))
+            self._sources.add(item.id, loops, haptics, level)
         self._hand_frames.apply(change, sources_changed=bool(loops))
 
     def _exchange(self, object_id: str) -> None:
@@ -702,7 +692,8 @@ class HapticSession:
         before, bundle = self._sources.get(object_id), self._bundle
         progress = None if before is None else self._switching.progress(object_id)
         self._take_out(object_id)
-        self._put(item, bundle.objects.get(object_id), bundle.loops.get(object_id, {}), bundle, object_id)
+        haptics, loops = bundle.objects.get(object_id), bundle.loops.get(object_id, {})
+        self._put_in(item, haptics, loops, _level(bundle, object_id))
         after, instead = self._sources.get(object_id), None
         if before is not None and after is not None and progress is not None:
             self._switching.go_on(object_id, before, progress)
@@ -725,6 +716,7 @@ class HapticSession:
     def _use_profile(self, user: UserProfile) -> None:
         self._user = user
         self._hand_frames.use_profile(user)
+        self._impacts.use_profile(user)
         limits = user.limits(self._hands, self.config.actuator.name)
         self._playback.hold(limits)
         self._output.hold(limits)
@@ -753,4 +745,5 @@ class HapticSession:
 
 
 def _level(bundle: HapticBundle, object_id: str) -> Level:
+    """Return a new knob at the level that a bundle has for a source."""
     return Level(bundle.gain_db(object_id), bundle.is_muted(object_id))

@@ -103,7 +103,8 @@ class Reach:
     @property
     def objects(self) -> set[str]:
         """All objects that a source reaches over contacts, sources in contact included."""
-        return set().union(*(group.members for group in self._groups_with_sources()))
+        groups = {self._group[x] for x in self._column if x in self._group}
+        return set().union(*(group.members for group in groups))
 
     def objects_near(self, object_ids: Iterable[str]) -> set[str]:
         """Objects connected with any of these and with a source."""
@@ -113,9 +114,6 @@ class Reach:
     def n_without(self, others: Iterable[str]) -> int:
         """Number of objects that a source reaches over contacts, without the objects `others`."""
         return self._n_reached - sum([x in self._group for x in others])
-
-    def _groups_with_sources(self) -> set[_Group]:
-        return {self._group[x] for x in self._column if x in self._group}
 
     def _found(self, x: str) -> None:
         """Make the group of all objects that are connected with an object."""

@@ -18,7 +18,6 @@ from scene2hap.scene.objects import VERTICAL, Contact, SceneObject, unknown_obje
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import RemovedIds
-from scene2hap.session.impacts.slams import RelativePoses, Slam, is_closed, may_enclose, slam_of
 from scene2hap.session.network import BoxCentres, Corners, PlatePoses, body_of, own_half_m, own_middle_m, rigid_body_of
 from scene2hap.session.reach import Reach, reach_over
 
@@ -42,7 +41,7 @@ class SceneState:
         bodies = ((item.id, self._body(item, bundle.objects.get(item.id))) for item in scene.objects)
         self.bodies: Mapping[str, Body] = {object_id: body for object_id, body in bodies if body is not None}
         self.graph: ContactGraph = ContactGraph(scene)
-        self._spelling = _Spelling()
+        self._contact_lists = _ContactLists()
         self._corners: Corners = {}
         self.ids: frozenset[str] = frozenset(self.objects)
         self._removed = RemovedIds()
@@ -113,25 +112,6 @@ class SceneState:
         """Half the sides of this box [m]."""
         return own_half_m(self.objects[object_id])
 
-    def slam(self, object_id: str, way: Callable[[str], RelativePoses]) -> Slam | None:
-        """Return what an object may slam against, see `slam_of`; None also without a hinge.
-
-        Parameters: way : returns the way relative to another object.
-        """
-        item = self.objects[object_id]
-        holder = None if item.hinge is None else self.objects.get(item.hinge.to)
-        if item.hinge is None or holder is None:
-            return None
-        return slam_of(item, item.hinge, holder, way(holder.id))
-
-    def drawer(self, object_id: str, other: str) -> Callable[[RelativePoses], bool] | None:
-        """Return the test whether an object is a drawer that is shut, see `slams.is_closed`; None if another clearly
-        does not enclose it, as for most pairs."""
-        item, holder, pose = self.objects[object_id], self.objects[other], self.graph.pose
-        if not may_enclose(holder, item):
-            return None
-        return lambda way: is_closed(item, holder, way, (pose(object_id), pose(other)), self.up_axis)
-
     def on_plate(self, object_id: str, point_m: tuple[float, float, float]) -> tuple[float, float] | None:
         """Coordinates of a world point [m] along length and width of an object's plate; None without a plate."""
         body = self.bodies.get(object_id)
@@ -162,26 +142,26 @@ class SceneState:
         be called later and in another thread, since listing contacts takes longer than an update may.
         """
         objects, bodies, poses, junctions = self.objects, self.bodies, self.poses, dict(self.graph.junctions)
-        spelling, corners, up_axis = self._spelling, self._corners, self._scene.up_axis
+        lists, corners, up_axis = self._contact_lists, self._corners, self._scene.up_axis
         middles_m = BoxCentres(objects, poses)
 
         def put_together(near: Collection[str]) -> ModelInput:
             if source_ids is None:
                 everywhere = PlatePoses(objects, bodies, poses, corners)
-                return ModelInput(ContactNetwork(bodies, spelling.of(junctions), everywhere, up_axis, middles_m))
+                return ModelInput(ContactNetwork(bodies, lists.of(junctions), everywhere, up_axis, middles_m))
             reach = reach_over(junctions, {*bodies, *source_ids}, source_ids)
             everything = reach.objects
             reached = reach.objects_near(near) or everything
             among = {object_id: body for object_id, body in bodies.items() if object_id in reached}
             within = {pair: one for pair, one in junctions.items() if pair[0] in reached}
             corners_of = PlatePoses(objects, among, poses, corners)
-            network = ContactNetwork(among, spelling.of(within), corners_of, up_axis, middles_m)
+            network = ContactNetwork(among, lists.of(within), corners_of, up_axis, middles_m)
             return ModelInput(network, None if len(reached) == len(everything) else reached)
 
         return put_together
 
 
-class _Spelling:
+class _ContactLists:
     """Converts junctions to contacts, and caches the contacts of unchanged junctions."""
 
     def __init__(self) -> None:

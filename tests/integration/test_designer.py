@@ -33,7 +33,7 @@ from scene2hap import (
     load_scene,
     rebake,
 )
-from scene2hap.audio.files import write_wav
+from scene2hap.audio.files import encoded
 from scene2hap.audio.haptic_loop import LevelWarning
 from scene2hap.baking.config import BakeConfig
 from scene2hap.bundle import BundleWarning
@@ -50,7 +50,7 @@ NAMED = ("handheld_fan", "smartphone", "dining_table", "microwave", "fruit_bowl"
 
 def tone(path: Path, frequency_hz: float) -> Path:
     t = np.arange(2 * 44100) / 44100
-    write_wav(path, (0.5 * np.sin(2 * np.pi * frequency_hz * t)).astype(np.float32), 44100)
+    path.write_bytes(encoded((0.5 * np.sin(2 * np.pi * frequency_hz * t)).astype(np.float32), 44100))
     return path
 
 

@@ -18,7 +18,7 @@ from batch_server import answered
 from files_of import files_of
 from llm_server import serving
 from scene2hap import Box, HapticBundle, LLMReply, LLMRequest, Pose, SceneObject, SceneSnapshot, bake
-from scene2hap.audio.files import write_wav
+from scene2hap.audio.files import encoded
 from scene2hap.bundle.differences import differences
 from scene2hap.cli import main
 from scene2hap.cli.console import Console
@@ -97,7 +97,7 @@ def test_edits_of_a_designer_stay_when_the_actuator_changes(
     assert baked.actuator.name == "voice_coil"
     first, *others = baked.loops
     t = np.arange(3 * 44100) / 44100
-    write_wav(sound, (0.5 * np.sin(2 * np.pi * 110.0 * t)).astype(np.float32), 44100)
+    sound.write_bytes(encoded((0.5 * np.sin(2 * np.pi * 110.0 * t)).astype(np.float32), 44100))
 
     remade = outcome(capsys, "edit", folder, "sound", first, str(sound), "--json")["remade"]
     assert isinstance(remade, dict)
@@ -180,7 +180,7 @@ def test_a_locked_loop_stays_byte_for_byte(
     folder, sound = kitchen("--actuator", "voice_coil"), tmp_path / "mine.wav"
     mine, *others = HapticBundle.load(folder).loops
     t = np.arange(2 * 44100) / 44100
-    write_wav(sound, (0.5 * np.sin(2 * np.pi * 130.0 * t)).astype(np.float32), 44100)
+    sound.write_bytes(encoded((0.5 * np.sin(2 * np.pi * 130.0 * t)).astype(np.float32), 44100))
     assert main(["edit", str(folder), "sound", mine, str(sound), "-q"]) == 0
     assert main(["edit", str(folder), "lock", mine, "-q"]) == 0
     locked = contents(folder, mine)
@@ -476,8 +476,8 @@ def test_a_sound_that_cannot_reach_its_level_warns_as_convert_does(
     """A click cannot be amplified to the level of a steady sound; a steady hum needs no warning."""
     folder, t = kitchen(), np.arange(4 * 44100) / 44100
     click, hum = tmp_path / "click.wav", tmp_path / "hum.wav"
-    write_wav(click, (0.9 * (np.arange(len(t)) == 44100)).astype(np.float32), 44100)
-    write_wav(hum, (0.5 * np.sin(2 * np.pi * 110.0 * t)).astype(np.float32), 44100)
+    click.write_bytes(encoded((0.9 * (np.arange(len(t)) == 44100)).astype(np.float32), 44100))
+    hum.write_bytes(encoded((0.5 * np.sin(2 * np.pi * 110.0 * t)).astype(np.float32), 44100))
     for sound, is_weak in ((click, True), (hum, False)):
         capsys.readouterr()
         assert main(["edit", str(folder), "sound", "radio", str(sound), "-q"]) == 0

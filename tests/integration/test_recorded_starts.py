@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from scene2hap import HapticBundle, HapticSession, Touch, bake, rebake
-from scene2hap.audio.files import write_wav
+from scene2hap.audio.files import encoded
 from scene2hap.audio.recorded_runs import recorded_runs
 from scene2hap.cli import main
 from scenes import box, scene
@@ -29,7 +29,7 @@ def baked(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("recorded")
     sounds = folder / "sounds"
     sounds.mkdir()
-    write_wav(sounds / "fan.wav", TAKE.clip.samples, RECORDED_HZ)
+    (sounds / "fan.wav").write_bytes(encoded(TAKE.clip.samples, RECORDED_HZ))
     made = bake(ROOM, {"llm": {"kind": "lexicon"}, "audio": [{"kind": "library", "folder": sounds}, {"kind": "synth"}]})
     return made.save(folder / "room.bundle")
 

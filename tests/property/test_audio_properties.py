@@ -8,9 +8,11 @@ from hypothesis import assume, given, settings, strategies as st
 from scene2hap.audio import analysis
 from scene2hap.audio.bands import split_bands
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.files import read_clip, write_wav
-from scene2hap.audio.loops import apply_seam, find_seam, loop_pair
+from scene2hap.audio.files import encoded, read_clip
+from scene2hap.audio.loops import loop_pair
+from scene2hap.audio.loops.seam_search import find_seam
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.seam import apply_seam
 from scene2hap.audio.select import explain_choice
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.haptics import Bands
@@ -148,5 +150,5 @@ def test_selection_does_not_depend_on_order_or_level(picks: list[int], levels: l
 def test_a_wav_file_comes_back_within_half_a_step(tmp_path_factory: object, seed: int, n: int, channels: int) -> None:
     path = tmp_path_factory.mktemp("wav") / "a.wav"
     x = np.random.default_rng(seed).uniform(-1, 1, (n, channels)).astype(np.float32)
-    write_wav(path, x, RATE)
+    path.write_bytes(encoded(x, RATE))
     np.testing.assert_allclose(read_clip(path).samples, x.mean(axis=1, dtype=float), rtol=0, atol=2**-23)

@@ -8,9 +8,11 @@ from collections.abc import Callable
 import numpy as np
 
 from contact_scenes import box, scene
-from scene2hap.contact.graph import ContactGraph
+from scene2hap.bundle import HapticBundle
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.session.impacts.landings import Landing, Landings
+from scene2hap.session.scene_state import SceneState
 
 RESTS_M, G = 0.76, 9.81
 """Height of the resting cup's middle [m], and gravity [m/s2]."""
@@ -21,25 +23,23 @@ Shown = list[tuple[float, float]]
 """Time of the shown pose and of the clock for each frame [s]."""
 
 
+def state_of(*objects: SceneObject) -> SceneState:
+    """The state of a session with these objects, of which nothing else is known."""
+    snapshot = scene(*objects)
+    return SceneState(snapshot, HapticBundle(snapshot, "room", {}, {}))
+
+
 def landings_of(height_m: Height, shown: Shown) -> list[Landing]:
     """The landings of a cup at a height over the table, until half a second after the last frame."""
     table, cup = box("table", (1.2, 0.7, 0.8), (0, 0.35, 0)), box("cup", (0.08, 0.12, 0.08), (0.0, RESTS_M, 0.0))
-    graph, found = ContactGraph(scene(table, cup)), list[Landing]()
-    graph.update({"cup": Pose((0.0, RESTS_M + height_m(0.0), 0.0))})
-    landings = Landings(
-        graph,
-        lambda object_id: (0.0, 0.0, 0.0),
-        lambda object_id: (0.04, 0.06, 0.04) if object_id == "cup" else (0.6, 0.35, 0.4),
-        lambda object_id, way: None,
-        lambda object_id, other: None,
-        1 / 90,
-        1,
-    )
+    state, found = state_of(table, cup), list[Landing]()
+    state.graph.update({"cup": Pose((0.0, RESTS_M + height_m(0.0), 0.0))})
+    landings = Landings(state, 1 / 90)
     end_s = shown[-1][1]
     for pose_s, time_s in [*shown, *((None, end_s + 0.011 * (i + 1)) for i in range(45))]:
         poses = {} if pose_s is None else {"cup": Pose((0.0, RESTS_M + height_m(pose_s), 0.0))}
         landings.begin(poses, time_s)
-        graph.update(poses)
+        state.graph.update(poses)
         found += landings.look(poses, time_s)
     return found
 

@@ -12,6 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from gltf_builder import Gltf, Json
+from scene2hap.scene.load import load_scene
+from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.snapshot import SceneSnapshot
 
 CHAIR = "frl_apartment_chair_01"
 HASH = "02a5a7ca2a4dc5cf5bd1f8c4e1f2aaf2bde0c3d1"
@@ -151,3 +154,18 @@ def _torn(text: str, rng: random.Random) -> str:
     end = min(len(text), begin + rng.randrange(1, 40))
     middle = rng.choice(["", text[begin:end] * 1000, "[" * 50_000, '"', "\0", "9" * 5000, "\ud800", "é\n\r,"])
     return text[:begin] + middle + rng.choice(["", text[end:]])
+
+
+def loaded(path: Path, **options: Any) -> SceneSnapshot:
+    """A scene whose sizes are not held against those of real objects."""
+    return load_scene(path, unit_m=1.0, **options)
+
+
+def named(path: Path, **options: Any) -> list[str]:
+    """The names of a scene's objects, without those of the stage."""
+    return [item.name for item in loaded(path, **options).objects if item.name not in ("floor", "wall")]
+
+
+def low_and_high(item: SceneObject) -> list[list[float]]:
+    """The lowest and the highest corner of an object in the world [m]."""
+    return [[round(value, 6) + 0.0 for value in corner] for corner in item.bounds_m.tolist()]

@@ -32,6 +32,7 @@ from scene2hap.audio.protocol import (
     TactileConverter,
     TactileStream,
     follows_anchor,
+    follows_target,
     one_channel,
     opened_stream,
     require_in_step,
@@ -142,7 +143,7 @@ def convert(
     with opened_sound(source) as file, written_whole(output) as beside:
         is_loop = not raw and (is_marked_whole(source, file.frames, file.samplerate) if loop is None else loop)
         sound = SoundReader(source, file, mono=mono, n_columns=n_columns, is_loop=is_loop)
-        if not raw and getattr(built, "follows_target", False):
+        if not raw and follows_target(built):
             context = _with_own_frequency(sound, context)
         try:
             streams = [opened_stream(built, sound.rate, context) for _ in range(sound.channels)]

@@ -11,16 +11,6 @@ cycles. `seam` fades them at constant power. `pair` cuts the audible and the tac
 """
 
 from scene2hap.audio.loops.pair import loop_pair, middle_of
-from scene2hap.audio.loops.seam_search import CROSSFADE_S, MAX_LOOP_S, MIN_CLIP_S, find_seam
-from scene2hap.audio.seam import Seam, apply_seam
+from scene2hap.audio.loops.seam_search import MIN_CLIP_S
 
-__all__ = [
-    "CROSSFADE_S",
-    "MAX_LOOP_S",
-    "MIN_CLIP_S",
-    "Seam",
-    "apply_seam",
-    "find_seam",
-    "loop_pair",
-    "middle_of",
-]
+__all__ = ["MIN_CLIP_S", "loop_pair", "middle_of"]

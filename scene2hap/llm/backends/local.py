@@ -81,7 +81,7 @@ class LocalBackend:
             checks.whole(name, value, "tokens", at_least=1, at_most=2**31, error=ConfigError)
             for name, value in (("num_ctx", num_ctx), ("max_tokens", max_tokens))
         )
-        seed = checks.seed(seed, error=ConfigError)
+        seed = checks.seed(seed)
         if top_p is not None:
             checks.number("top_p", top_p, "-", above=0.0, at_most=1.0, error=ConfigError)
         taken = sorted(_OURS & set(extra or ()))

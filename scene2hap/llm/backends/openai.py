@@ -76,7 +76,7 @@ class OpenAIBackend:
         if max_tokens is not None:
             max_tokens = checks.whole("max_tokens", max_tokens, "tokens", at_least=1, at_most=2**31, error=ConfigError)
         if seed is not None:
-            seed = checks.seed(seed, error=ConfigError)
+            seed = checks.seed(seed)
         if top_p is not None:
             checks.number("top_p", top_p, "-", above=0.0, at_most=1.0, error=ConfigError)
         if service_tier not in (None, "auto", "default", "flex", "priority"):

@@ -11,14 +11,14 @@ from functools import partial
 from types import MappingProxyType
 from typing import NamedTuple
 
-from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
 from scene2hap.contact.rule import TOUCH_M
 from scene2hap.scene.geometry import Vector, cross, difference, dot
 from scene2hap.scene.pose import in_own, in_world
 from scene2hap.session.impacts.motion_track import LEAST_TRAVEL_M, STILL
 from scene2hap.session.impacts.relative_motion import RelativeMotion
-from scene2hap.session.impacts.slams import RelativePoses, Slam
+from scene2hap.session.impacts.slams import Slam, is_closed, may_enclose, slam_of
+from scene2hap.session.scene_state import SceneState
 
 _PLANE_POINTS, _LEAST_WIDTH_M, _FLAT = 3, 0.003, 0.1
 """Fewest points of a contact that span a plane, their least width, and their largest thickness relative to it."""
@@ -43,21 +43,10 @@ class Approach(NamedTuple):
 
 
 class Approaches:
-    """Lists the approaches of an object between two updates.
+    """Lists the approaches of an object between two updates."""
 
-    Parameters: half_m : half the sides of the box around an object [m]; slam : what an object on a hinge may slam
-    against; drawer : the test whether an object is a drawer that is shut, None if another does not enclose it.
-    """
-
-    def __init__(
-        self,
-        graph: ContactGraph,
-        motion: RelativeMotion,
-        half_m: Callable[[str], Vector],
-        slam: Callable[[str, Callable[[str], RelativePoses]], Slam | None],
-        drawer: Callable[[str, str], Callable[[RelativePoses], bool] | None],
-    ) -> None:
-        self._graph, self._motion, self._half_m, self._slam, self._drawer = graph, motion, half_m, slam, drawer
+    def __init__(self, state: SceneState, motion: RelativeMotion) -> None:
+        self._state, self._graph, self._motion = state, state.graph, motion
 
     def at_contacts(self, object_id: str, met: Mapping[str, Junction], between: tuple[int, int]) -> Iterator[Approach]:
         """Approaches at the present and former contacts of an object, and at its edge if a hinge holds it. Without
@@ -68,7 +57,7 @@ class Approaches:
         Python.
         """
         beside, pose = self._graph.beside.get(object_id, NO_JUNCTIONS), self._graph.pose(object_id)
-        slam = self._slam(object_id, partial(self._motion.poses, object_id))
+        slam = self._slam(object_id)
         holder = None if slam is None else slam.holder
         for other in sorted(met, key=lambda x: (x not in beside, x == holder, x)):
             meets: Callable[[], bool] | None = None
@@ -88,12 +77,11 @@ class Approaches:
         """Approaches of a drawer to what encloses it."""
         beside = self._graph.beside.get(object_id, NO_JUNCTIONS)
         for other in sorted(beside):
-            is_closed = self._drawer(object_id, other)
-            if is_closed is not None:
+            if may_enclose(self._state.objects[other], self._state.objects[object_id]):
                 point = _middle(beside[other])
                 came = self._motion.nearing_m(object_id, other, point, *between)
-                closed = partial(self._is_shut, object_id, other, is_closed)
-                yield Approach(other, point, came, _direction(came), closed, is_contact=False, is_seen=False)
+                is_shut = partial(self._is_shut, object_id, other)
+                yield Approach(other, point, came, _direction(came), is_shut, is_contact=False, is_seen=False)
 
     def is_reached(self, object_id: str, point_m: Vector, normal: Vector) -> bool:
         """Whether an object reaches a contact along a normal.
@@ -104,12 +92,23 @@ class Approaches:
         pose = self._graph.pose(object_id)
         (x, y, z), (u, v, w) = normal, pose.position_m
         own_normal = in_own((u + x, v + y, w + z), pose)
-        reach_m = sum(abs(part) * half for part, half in zip(own_normal, self._half_m(object_id), strict=True))
+        reach_m = sum(abs(part) * half for part, half in zip(own_normal, self._state.half_m(object_id), strict=True))
         middle_m = in_world(self._motion.tracks[object_id].own_m, pose)
         return 2 * (dot(difference(point_m, middle_m), normal) - reach_m) <= TOUCH_M
 
-    def _is_shut(self, object_id: str, other: str, is_closed: Callable[[RelativePoses], bool]) -> bool:
-        return is_closed(self._motion.poses(object_id, other))
+    def _slam(self, object_id: str) -> Slam | None:
+        """Return what an object may slam against, see `slam_of`; None also without a hinge."""
+        item = self._state.objects[object_id]
+        holder = None if item.hinge is None else self._state.objects.get(item.hinge.to)
+        if item.hinge is None or holder is None:
+            return None
+        return slam_of(item, item.hinge, holder, self._motion.poses(object_id, holder.id))
+
+    def _is_shut(self, object_id: str, other: str) -> bool:
+        """Whether an object is a drawer that is shut in another one, see `is_closed`."""
+        state, now = self._state, (self._graph.pose(object_id), self._graph.pose(other))
+        item, holder = state.objects[object_id], state.objects[other]
+        return is_closed(item, holder, self._motion.poses(object_id, other), now, state.up_axis)
 
     def _normal(self, object_id: str, other: str, point_m: Vector, junction: Junction, since: int) -> Vector:
         """Normal from the object to the other: the contact's, else that of its points if they span a plane, else the

@@ -33,6 +33,7 @@ from scene2hap.session.hand_gains import Felt
 from scene2hap.session.impacts.gains import Point, struck_later, struck_live
 from scene2hap.session.impacts.landings import Landings
 from scene2hap.session.mix.playback import Playback
+from scene2hap.session.mix.sources import Level
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.user_profile import UserProfile
 from scene2hap.session.worker_threads import WorkerPool
@@ -110,7 +111,7 @@ class Impacts:
 
     Threads: call all methods on the game's thread. A worker that has prepared the gains of an impact starts its burst,
     which need not wait for an update. `take_late` records these impacts.
-    Parameters: field : returns the field in use; user_factor : returns the level of all vibration [-].
+    Parameters: field : returns the field in use; level : of all vibration.
     """
 
     def __init__(
@@ -119,12 +120,12 @@ class Impacts:
         state: SceneState,
         playback: Playback,
         field: Callable[[], object],
-        user_factor: Callable[[], float],
+        level: Level,
     ) -> None:
         self._config, self._state, self._playback = config, state, playback
-        self._field, self._user_factor = field, user_factor
-        followed = (state.graph, state.middle_m, state.half_m, state.slam, state.drawer)
-        self._landings = Landings(*followed, config.control_period_s, state.up_axis) if config.impacts else None
+        self._field, self._level = field, level
+        self._profile: UserProfile | None = None
+        self._landings = Landings(state, config.control_period_s) if config.impacts else None
         self._last: dict[frozenset[str | None], _Report] = {}
         self._updated_at = 0
         self._looked_at: object = None
@@ -139,12 +140,16 @@ class Impacts:
         self.n_felt: int = 0
         self.n_left_out: int = 0
 
-    def strike(self, strike: Strike, felt: Felt, profile: UserProfile | None, at_frame: int) -> Impact:
+    def use_profile(self, profile: UserProfile) -> None:
+        """Use the levels of another person for impacts from now on."""
+        self._profile = None if profile.is_neutral else profile
+
+    def strike(self, strike: Strike, felt: Felt, at_frame: int) -> Impact:
         """Play an impact at the hands that touch something."""
         self.take_late()
         impact, burst = self._impact(strike, at_frame)
         if self._is_admitted(strike, felt, at_frame):
-            self._play(impact, burst, felt, profile)
+            self._play(impact, burst, felt)
         return impact
 
     def forget_motions(self) -> None:
@@ -157,13 +162,7 @@ class Impacts:
         if self._landings is not None:
             self._landings.begin(moved, at_frame / self._config.sample_rate_hz)
 
-    def follow(
-        self,
-        moved: Mapping[str, Pose] | None,
-        felt: Felt,
-        profile: UserProfile | None,
-        at_frame: int,
-    ) -> None:
+    def follow(self, moved: Mapping[str, Pose] | None, felt: Felt, at_frame: int) -> None:
         """Play the landings of an update, and prepare for impacts around the touched objects. Call it in each one."""
         self.take_late()
         if self._landings is not None:
@@ -171,7 +170,7 @@ class Impacts:
                 landing = Strike(one.onto, one.point_m, one.object_id, one.speed_m_s)
                 # Checked first, so that nothing is computed for a skipped impact.
                 if self._is_admitted(landing, felt, at_frame, self._updated_at):
-                    self._play(*self._impact(landing, at_frame), felt, profile)
+                    self._play(*self._impact(landing, at_frame), felt)
         self._updated_at = at_frame
         if self._ahead is not None:
             self._ahead.expect({touch.object_id for touches in felt.values() for touch in touches})
@@ -193,8 +192,8 @@ class Impacts:
             burst,
         )
 
-    def _play(self, impact: Impact, burst: Burst, felt: Felt, profile: UserProfile | None) -> None:
-        at_frame, f = impact.at_sample, burst.frequencies_hz
+    def _play(self, impact: Impact, burst: Burst, felt: Felt) -> None:
+        at_frame, f, profile = impact.at_sample, burst.frequencies_hz, self._profile
         # A hand may be removed before a worker has the gains, and has another output if it is added again.
         outputs = self._playback.outputs
         touched: dict[str, list[TouchedPoint]] = {
@@ -286,8 +285,8 @@ class Impacts:
         # Too slow to be felt as vibration, wherever it is played.
         drives[f < TACTILE_RANGE_HZ[0]] = 0.0
         # Applied last, so that an actuator's bounds take the same from strong and weak impacts.
-        drives *= min(1.0, math.sqrt(accelerations.sum() / LOUDEST_M_S2)) * self._user_factor()
-        if profile is None or profile.is_neutral:
+        drives *= min(1.0, math.sqrt(accelerations.sum() / LOUDEST_M_S2)) * self._level.factor
+        if profile is None:
             return waves, drives[None].repeat(len(hands), axis=0)
         return waves, drives * [10 ** (profile.level_db(hand, actuator.name, played_hz) / 20) for hand in hands]
 
@@ -314,7 +313,7 @@ class Impacts:
             self.n_reported += 1
             last = _Report(at_frame, is_settled=False)
         was_settled = last.is_settled
-        may_be_felt = bool(felt) and not self._playback.is_paused and bool(self._user_factor())
+        may_be_felt = bool(felt) and not self._playback.is_paused and bool(self._level.factor)
         self._last[pair] = _Report(last.at_frame, is_settled=was_settled or may_be_felt)
         while len(self._last) > KEPT:
             del self._last[next(iter(self._last))]

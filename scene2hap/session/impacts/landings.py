@@ -14,10 +14,9 @@ Doors and drawers meet their cabinet where no contact shows it (`slams`).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
-from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
 from scene2hap.scene.geometry import Vector, difference, dot
 from scene2hap.scene.pose import Pose
@@ -32,8 +31,8 @@ from scene2hap.session.impacts.motion_track import (
     MotionTrack,
 )
 from scene2hap.session.impacts.relative_motion import RelativeMotion
-from scene2hap.session.impacts.slams import RelativePoses, Slam
 from scene2hap.session.impacts.sudden_stop import SuddenStop
+from scene2hap.session.scene_state import SceneState
 
 LEAST_SPEED_M_S = 0.1
 """A cup put down more slowly is as good as not felt, and trackers shake as fast."""
@@ -67,28 +66,16 @@ class Landing(NamedTuple):
 class Landings:
     """Follows moving objects, and finds those that land.
 
-    Parameters: graph : the contacts, read at each `look`; middle_m : the middle of an object's box, in its own frame
-    [m]; half_m : half the sides of this box [m]; slam : what an object on a hinge may slam against; drawer : the
-    test whether an object is a drawer that is shut, None if another does not enclose it; period_s : usual time between
-    updates, where the clock shows none; up_axis : number of the vertical axis.
+    Parameters: state : the scene, read at each `look`; period_s : usual time between updates, where the clock shows
+    none.
     """
 
-    def __init__(
-        self,
-        graph: ContactGraph,
-        middle_m: Callable[[str], Vector],
-        half_m: Callable[[str], Vector],
-        slam: Callable[[str, Callable[[str], RelativePoses]], Slam | None],
-        drawer: Callable[[str, str], Callable[[RelativePoses], bool] | None],
-        period_s: float,
-        up_axis: int,
-    ) -> None:
-        self._graph, self._middle_m = graph, middle_m
-        self._period_s = period_s
-        self._motion = RelativeMotion(graph)
-        self._closing = ClosingSpeed(self._motion, period_s, up_axis)
+    def __init__(self, state: SceneState, period_s: float) -> None:
+        self._state, self._graph, self._period_s = state, state.graph, period_s
+        self._motion = RelativeMotion(state.graph)
+        self._closing = ClosingSpeed(self._motion, period_s, state.up_axis)
         self._stop = SuddenStop(self._motion, period_s)
-        self._approaches = Approaches(graph, self._motion, half_m, slam, drawer)
+        self._approaches = Approaches(state, self._motion)
         self._near: dict[str, dict[str, Junction]] = {}
         """Contacts of each moving object before the present step, and in all of its updates but the last."""
         self._moved: dict[str, None] = {}
@@ -116,7 +103,7 @@ class Landings:
                 pose = self._graph.pose(object_id)
                 # Some games give the poses of all objects in every frame. The graph refuses other types than poses.
                 if isinstance(moves_to, Pose) and pose != moves_to:
-                    own_m = self._middle_m(object_id)
+                    own_m = self._state.middle_m(object_id)
                     tracks[object_id] = MotionTrack(motion.n_updates, since_s, pose, own_m)
 
     def look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
@@ -259,7 +246,7 @@ class Landings:
                 step = dot(self._motion.nearing_m(object_id, other, point, before, last), normal)
                 onward = dot(self._motion.nearing_m(object_id, other, point, last, now), normal)
                 most = LEFT * step * shorter if other in beside else 0.0
-                middle_m = self._motion.middle_nearing_m(object_id, other, point, normal, first, last)
+                middle_m = self._motion.middle_path_m(object_id, other, point, normal, first, last)[last]
                 if onward > most or middle_m < ROLLS * closing:
                     continue
                 if not self._stop.is_sudden(object_id, other, point, normal, [*steps, (now, time_s)]):

@@ -36,13 +36,6 @@ class Answer(NamedTuple):
     gains: Floats
 
 
-class PreparationRequest(NamedTuple):
-    """The touched objects for which a scene is prepared, and the version of its contacts."""
-
-    touched: tuple[str, ...]
-    version: int
-
-
 class ImpactPreparation:
     """Prepares the scene around touched objects. Call all methods on the game's thread.
 
@@ -56,7 +49,7 @@ class ImpactPreparation:
         self._model, self._state, self._submit = model, state, submit
         self._prepared: tuple[Mapping[str, Body], ImpactScene] | None = None
         self._touched: list[str] = []
-        self._ordered = PreparationRequest((), -1)
+        self._ordered_version = -1
         self._job: Future[None] | None = None
         self._expected: Collection[str] = ()
         self._version, self._changed_at_s, self._ordered_at_s = -1, 0.0, 0.0
@@ -118,8 +111,8 @@ class ImpactPreparation:
     def _order_next(self, version: int, *, rests: bool) -> bool:
         """Request the scene if it lacks an expected object, or if it is outdated and `rests`. Returns true if so."""
         expected = [x for x in self._expected if x in self._state.bodies]
-        is_missing = not set(expected) <= set(self._ordered.touched)
-        if not expected or not (is_missing or (version != self._ordered.version and rests)):
+        is_missing = not set(expected) <= set(self._touched)
+        if not expected or not (is_missing or (version != self._ordered_version and rests)):
             return False
         others = [x for x in self._touched if x not in expected and x in self._state.bodies]
         self._touched = [*others, *expected][-max(MOST, len(expected)) :]
@@ -128,7 +121,7 @@ class ImpactPreparation:
 
     def _order(self, version: int) -> None:
         touched, bodies = tuple(self._touched), self._state.bodies
-        self._ordered, self._ordered_at_s = PreparationRequest(touched, version), time.monotonic()
+        self._ordered_version, self._ordered_at_s = version, time.monotonic()
         # An object that touches no other of known material is in no network, so the whole scene is prepared for it.
         put_together = self._state.network(touched if all(map(self._state.touches_a_body, touched)) else None)
 

@@ -31,16 +31,11 @@ class RelativeMotion:
             self._travel_m(object_id, point_m, since, until), self._travel_m(other, point_m, since, until)
         )
 
-    def middle_nearing_m(
-        self, object_id: str, other: str, point_m: Vector, normal: Vector, since: int, until: int
-    ) -> float:
-        """Return the travel of an object's middle along a normal, relative to a point of another object."""
-        return self.middle_path_m(object_id, other, point_m, normal, since, until)[until]
-
     def middle_path_m(
         self, object_id: str, other: str, point_m: Vector, normal: Vector, since: int, until: int
     ) -> dict[int, float]:
-        """Return this travel from one step to each of those until another one, by update."""
+        """Return the travel of an object's middle along a normal, relative to a point of another object, from one step
+        to each of those until another one, by update."""
         track, is_moving = self.tracks[object_id], other in self.tracks
         path: dict[int, float] = {}
         begin = 0.0

@@ -108,8 +108,8 @@ class Source:
     """A vibrating object; `needs` is the contact that each state needs, by id or in words.
 
     inferred : its inferred states, by name; is_resting : whether it is in the off-time of its own cycle (thermostat);
-    has_contact : whether it has the contact that its state needs; is_new : before its first update; passing : the row
-    that is played while it starts or stops. `Switching` sets the last four.
+    has_contact : whether it has the contact that its state needs; is_new : before its first update; transition_row :
+    the row that is played while it starts or stops. `Switching` sets the last four.
     """
 
     rows: Mapping[str, LoopRow]
@@ -121,12 +121,12 @@ class Source:
     is_resting: bool = False
     has_contact: bool = True
     is_new: bool = True
-    passing: LoopRow | None = None
+    transition_row: LoopRow | None = None
 
     @property
     def row(self) -> LoopRow:
         """The row that is played: that of its state, or of its start or stop."""
-        return self.passing or self.rows[self.state]
+        return self.transition_row or self.rows[self.state]
 
     @property
     def is_running(self) -> bool:
@@ -181,7 +181,7 @@ class Sources:
         if before.state != next(iter(before.rows)) and before.state in source.rows:
             source.state = before.state
         if source.state == before.state:
-            source.passing = before.passing
+            source.transition_row = before.transition_row
         self._list()
 
     def __getitem__(self, source_id: str) -> Source:
@@ -209,12 +209,12 @@ class Sources:
     def rows(self) -> list[LoopRow]:
         """The row of every state of every source."""
         sources = self._sources.values()
-        passing = [source.passing for source in sources if source.passing is not None]
-        return [row for source in sources for row in source.rows.values()] + passing
+        transitions = [source.transition_row for source in sources if source.transition_row is not None]
+        return [row for source in sources for row in source.rows.values()] + transitions
 
-    def let_pass(self, source_id: str, row: LoopRow | None) -> None:
+    def play_transition(self, source_id: str, row: LoopRow | None) -> None:
         """Play a row while a source starts or stops; None returns to the row of its state."""
-        self._sources[source_id].passing = row
+        self._sources[source_id].transition_row = row
         self._active_rows = None
 
     def active_rows(self) -> tuple[LoopRow, ...]:
@@ -239,7 +239,7 @@ class Sources:
         source.is_on = is_on
         is_other = state is not None and state != source.state
         if is_other:
-            source.state, source.passing = state or source.state, None
+            source.state, source.transition_row = state or source.state, None
             self._list()
         return is_other
 
@@ -259,7 +259,7 @@ class Sources:
         user = self.user.factor
         return np.array(
             [
-                source.level.factor * user if source.is_running or source.passing is not None else 0.0
+                source.level.factor * user if source.is_running or source.transition_row is not None else 0.0
                 for source in self._sources.values()
             ]
         )

@@ -7,19 +7,12 @@ stops from its present amplitude, and the other way round. Starts and stops foll
 from __future__ import annotations
 
 import zlib
-from dataclasses import dataclass
 
 from scene2hap.contact_needs import meets
 from scene2hap.render.transition import STEADY, STILL, Running, Transition, TransitionCurve
 from scene2hap.session.mix.playback import Playback
 from scene2hap.session.mix.sources import LoopRow, Source, SourceProgress, Sources
 from scene2hap.session.scene_state import SceneState
-
-
-@dataclass(frozen=True, eq=False)
-class _Passing:
-    transition: Transition
-    end_frame: int
 
 
 class Switching:
@@ -31,7 +24,7 @@ class Switching:
 
     def __init__(self, sources: Sources, playback: Playback, state: SceneState, sample_rate_hz: int) -> None:
         self._sources, self._playback, self._state, self._rate_hz = sources, playback, state, sample_rate_hz
-        self._passing: dict[str, _Passing] = {}
+        self._transitions: dict[str, Transition] = {}
         # Where a source's on-time or off-time ends [frames], and the source, since another may get the same id. Parts
         # of a frame are kept, since they add up. It ends at the nearest frame: 1.1 s are 52800.00000000001 frames.
         self._turns: dict[str, tuple[float, Source]] = {}
@@ -81,12 +74,12 @@ class Switching:
         resumed, self._resumed = self._resumed, {}
         for source_id, (running, source) in resumed.items():
             if self._sources.get(source_id) is source:
-                self._pass(source_id, source, now, running)
-        over = [source_id for source_id, one in self._passing.items() if now >= one.end_frame]
+                self._begin_transition(source_id, source, now, running)
+        over = [source_id for source_id, one in self._transitions.items() if now >= self._playback.end_frame(one)]
         for source_id in over:
-            del self._passing[source_id]
+            del self._transitions[source_id]
             if source_id in self._sources:
-                self._sources.let_pass(source_id, None)
+                self._sources.play_transition(source_id, None)
         if over:
             self._playback.change_rows(self._sources.rows(), now)
         due = [source_id for source_id, (end, _) in self._turns.items() if now >= round(end)]
@@ -120,14 +113,14 @@ class Switching:
 
     def running(self, source_id: str) -> Running:
         """Speed and amplitude of a source that is on, or that still stops."""
-        passing = self._passing.get(source_id)
-        return STEADY if passing is None else self._playback.running(passing.transition, self._playback.now)
+        transition = self._transitions.get(source_id)
+        return STEADY if transition is None else self._playback.running(transition, self._playback.now)
 
     def progress(self, source_id: str) -> SourceProgress:
         """How far a source is in its start or stop and in its cycle. Raises: UnknownObject."""
         source, (end, turning) = self._sources[source_id], self._turns.get(source_id, (0, None))
         left_s = max(0, end - self._playback.now) / self._rate_hz if turning is source else None
-        if source.passing is None:
+        if source.transition_row is None:
             return SourceProgress(None, None, source.is_resting, left_s)
         speed, amplitude = self.running(source_id)
         return SourceProgress(min(1.0, speed), min(1.0, amplitude), source.is_resting, left_s)
@@ -159,7 +152,8 @@ class Switching:
         """Update the stored data after sources were added or removed."""
         self._known, self._topology = self._sources.ids, None
         self._needing = [x for x in self._known if any(self._sources[x].needs.values())]
-        self._passing = {x: one for x, one in self._passing.items() if x in self._sources and self._sources[x].passing}
+        under_way = {x for x in self._transitions if x in self._sources and self._sources[x].transition_row}
+        self._transitions = {x: one for x, one in self._transitions.items() if x in under_way}
         before, self._turns = self._turns, {}
         for source_id in self._known:
             source = self._sources[source_id]
@@ -214,21 +208,19 @@ class Switching:
 
     def _follow(self, source_id: str, source: Source, was_running: bool, now: int) -> None:
         """Begin a start or a stop if a source was switched."""
-        goes_up = source.is_running
-        if goes_up == was_running or source.is_new:
-            return
-        self._pass(source_id, source, now)
+        if source.is_running != was_running and not source.is_new:
+            self._begin_transition(source_id, source, now)
 
-    def _pass(self, source_id: str, source: Source, now: int, since: Running | None = None) -> None:
+    def _begin_transition(self, source_id: str, source: Source, now: int, since: Running | None = None) -> None:
         """Begin a start or a stop at the present speed and amplitude, or at given ones."""
         goes_up = source.is_running
-        before = self._passing.pop(source_id, None)
-        if source.passing is None or since is not None:
+        before = self._transitions.pop(source_id, None)
+        if source.transition_row is None or since is not None:
             before = None  # that of another state, which ended with it, or of a game that was replaced
         if since is None:
             at_rest = STILL if goes_up else STEADY
-            since = at_rest if before is None else self._playback.running(before.transition, now)
-        self._sources.let_pass(source_id, None)
+            since = at_rest if before is None else self._playback.running(before, now)
+        self._sources.play_transition(source_id, None)
         inferred = source.inferred.get(source.state)
         lasts_s = 0.0 if inferred is None else inferred.start_up_s if goes_up else inferred.wind_down_s
         is_there = since.amplitude >= 1.0 if goes_up else since.amplitude <= 0.0
@@ -238,11 +230,10 @@ class Switching:
             course = TransitionCurve(
                 goes_up, inferred.spins, steady.loop.start_up if goes_up else steady.loop.wind_down
             )
-            after = None if before is None else before.transition
-            transition = self._playback.start_transition(row, steady, now, lasts_s, course, since, after)
+            transition = self._playback.start_transition(row, steady, now, lasts_s, course, since, before)
             if transition is not None:
-                self._passing[source_id] = _Passing(transition, self._playback.end_frame(transition))
-                self._sources.let_pass(source_id, row)
+                self._transitions[source_id] = transition
+                self._sources.play_transition(source_id, row)
         self._playback.change_rows(self._sources.rows(), now)
 
 

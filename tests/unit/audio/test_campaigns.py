@@ -10,8 +10,9 @@ from own_sounds import OWN_HUMS, OWN_SOUNDS, own_sound
 from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert_clip
-from scene2hap.audio.loops import apply_seam, find_seam
+from scene2hap.audio.loops.seam_search import find_seam
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.seam import apply_seam
 from scene2hap.audio.select import explain_choice
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from seam_judge import judge

@@ -13,15 +13,10 @@ from scene2hap.audio.clip import AudioClip, Credit, Samples
 from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB
-from scene2hap.audio.loops import (
-    MAX_LOOP_S,
-    Seam,
-    apply_seam,
-    find_seam,
-    loop_pair,
-    middle_of,
-)
+from scene2hap.audio.loops import loop_pair, middle_of
+from scene2hap.audio.loops.seam_search import MAX_LOOP_S, find_seam
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.seam import Seam, apply_seam
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.lowpass import Lowpass
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass

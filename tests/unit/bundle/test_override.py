@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from scene2hap import AudioClip, Credit, HapticBundle, HapticSession, Material, Touch, materials
-from scene2hap.audio.files import write_wav
+from scene2hap.audio.files import encoded
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.errors import AudioError, BundleError, MaterialError, UnknownMaterial, UnknownObject
 from scenes import RATE, table_with_two_phones
@@ -192,7 +192,7 @@ def test_a_state_that_is_not_there_is_refused_with_the_next_step(bundle: HapticB
 
 def test_a_sound_that_is_too_short_is_refused_with_its_file_and_object(bundle: HapticBundle, tmp_path: Path) -> None:
     click = AudioClip(np.ones(RATE // 50, np.float32) / 2, RATE, Credit("click", "me", "mine"))
-    write_wav(tmp_path / "click20ms.wav", click.samples, RATE)
+    (tmp_path / "click20ms.wav").write_bytes(encoded(click.samples, RATE))
     with pytest.raises(AudioError, match=r"'phone': the sound .*click20ms.wav lasts 0.02 s; .* at least 0.1 s"):
         bundle.override("phone", clip=tmp_path / "click20ms.wav")
     with pytest.raises(AudioError, match="'phone': the sound 'click' lasts 0.02 s"):

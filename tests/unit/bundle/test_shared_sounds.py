@@ -13,7 +13,7 @@ import pytest
 from files_of import files_of
 from scene2hap import AudioClip, HapticBundle
 from scene2hap.audio.conversion import convert
-from scene2hap.audio.files import read_clip, write_wav
+from scene2hap.audio.files import encoded, read_clip
 from scene2hap.bundle.sounds import file_stems
 from scene2hap.errors import BundleError
 from scene2hap.export import export_bundle
@@ -77,7 +77,7 @@ def test_edit_of_a_shared_file_affects_all_its_sources(tmp_path: Path) -> None:
     folder = fans().save(tmp_path / "b")
     path = folder / rows(folder)["fan_3"]["on"]["tactile"]
     louder = read_clip(path)
-    write_wav(path, 2.0 * louder.samples, louder.sample_rate_hz)
+    path.write_bytes(encoded(2.0 * louder.samples, louder.sample_rate_hz))
     loaded = HapticBundle.load(folder)
     peaks = [float(np.abs(states["on"].tactile.samples).max()) for states in loaded.loops.values()]
     assert peaks == pytest.approx([0.6] * N, abs=1e-6)
@@ -87,7 +87,7 @@ def test_user_file_separates_one_source(tmp_path: Path) -> None:
     folder = fans().save(tmp_path / "b")
     document = rows(folder)
     quiet = read_clip(folder / document["fan_3"]["on"]["tactile"])
-    write_wav(folder / "sounds" / "quiet.wav", 0.5 * quiet.samples, quiet.sample_rate_hz)
+    (folder / "sounds" / "quiet.wav").write_bytes(encoded(0.5 * quiet.samples, quiet.sample_rate_hz))
     document["fan_3"]["on"]["tactile"] = "sounds/quiet.wav"
     (folder / "loops.json").write_text(json.dumps(document))
     loaded = HapticBundle.load(folder)

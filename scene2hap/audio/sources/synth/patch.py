@@ -43,15 +43,12 @@ class Rhythm:
 class Patch:
     """A voice with its parameters.
 
-    `dominant_hz` bounds the strongest frequency at reference size; `reference_m` is the longest side of the machine to
-    which the parameters belong, None if size has no effect; `is_steady` is True if the sound can be looped as it is;
+    `reference_m` is the longest side of the machine to which the parameters belong, None if size has no effect;
     `rhythm` is the periodic load of the whole voice, None for none.
     """
 
     voice: Callable[[Take], Signal]
-    dominant_hz: tuple[float, float]
     reference_m: float | None = None
-    is_steady: bool = True
     rhythm: Rhythm | None = None
 
     def size_factor(self, longest_m: float) -> float:

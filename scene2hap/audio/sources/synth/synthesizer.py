@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
 
@@ -12,7 +12,8 @@ from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.sources.candidates import how_many
 from scene2hap.audio.sources.synth.patch import Patch
 from scene2hap.audio.sources.synth.signals import REFERENCE_MAINS_HZ, SAMPLE_RATE_HZ, Take, unit_peak
-from scene2hap.audio.sources.synth.vocabulary import patch_for
+from scene2hap.audio.sources.synth.table import MOTOR, TABLE
+from scene2hap.audio.sources.word_stems import noun_phrase, stems
 from scene2hap.common import checks
 from scene2hap.errors import AudioError, ConfigError
 from scene2hap.haptics import VibrationDescription
@@ -48,6 +49,37 @@ class Synthesizer:
             _performed(patch, Take(_chance(description, index), drive, factor, self.mains_hz), description, index)
             for index in range(self.takes)
         ]
+
+
+def patch_for(category: str, *phrases: str) -> Patch:
+    """Return the patch whose name fits a category best, given phrases that may have the verb; `MOTOR` if none fits.
+
+    The order of preference: names that have the category's head noun, names that share another word, patches made for
+    the verb, names that share more words.
+    """
+    nouns = noun_phrase(category)
+    # A boiling frying pan does not fry: words of the name are no verbs.
+    spoken = {stem for phrase in phrases for stem in stems(phrase)}.difference(nouns)
+    best, best_fit = MOTOR, (False, False, False, 0)
+    for name, verbs, patch in _rows():
+        if verbs and not verbs & spoken:
+            continue
+        if not name <= set(nouns):
+            continue
+        fit = (bool(name.intersection(nouns[-1:])), bool(name), bool(verbs), len(name))
+        if fit > best_fit:
+            best, best_fit = patch, fit
+    return best
+
+
+@cache
+def _rows() -> tuple[tuple[frozenset[str], frozenset[str], Patch], ...]:
+    """Return one row for each name, in stems."""
+    return tuple(
+        (frozenset(stems(name)), frozenset(stems(verbs)), patch)
+        for names, verbs, patch in TABLE
+        for name in names.split(",")
+    )
 
 
 def _performed(patch: Patch, take: Take, description: VibrationDescription, index: int) -> AudioClip:

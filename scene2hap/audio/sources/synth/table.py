@@ -23,94 +23,73 @@ from scene2hap.audio.sources.synth.rotating import compressor, fan, motor, power
 from scene2hap.audio.sources.synth.signals import Take
 from scene2hap.audio.sources.synth.working import geared, jet, rolling, rotor_slap, stepper
 
-
-def _fan(
-    shaft_hz: float, blades: int, size_m: float, *, rotor: float = 1.0, blade: float = 0.5, flow: float = 0.5
-) -> Patch:
-    """Return a fan whose rotor dominates, or its blades if their level is higher."""
-    order = blades if blade > rotor else 1
-    voice = partial(fan, shaft_hz=shaft_hz, blades=blades, rotor=rotor, blade=blade, flow=flow)
-    return Patch(voice, (0.96 * order * shaft_hz, 1.04 * order * shaft_hz), size_m)
+# In these functions, `levels` are further settings of the voice.
 
 
-# In the functions below, `levels` are further settings of the voice.
+def _fan(shaft_hz: float, blades: int, size_m: float, **levels: Any) -> Patch:
+    return Patch(partial(fan, shaft_hz=shaft_hz, blades=blades, **levels), size_m)
 
 
-def _engine(firing_hz: float, loud_order: int, size_m: float, *, revs: float = 0.0, **levels: Any) -> Patch:
-    loud_hz = loud_order * firing_hz
-    voice = partial(combustion, firing_hz=firing_hz, loud_order=loud_order, revs=revs, **levels)
-    reach = 0.05 + revs
-    return Patch(voice, ((1.0 - reach) * loud_hz, (1.0 + reach) * loud_hz), size_m, is_steady=revs < 0.1)
+def _engine(firing_hz: float, loud_order: int, size_m: float, **levels: Any) -> Patch:
+    return Patch(partial(combustion, firing_hz=firing_hz, loud_order=loud_order, **levels), size_m)
 
 
 def _to_and_fro(stroke_hz: float, **levels: Any) -> Patch:
-    return Patch(partial(reciprocating, stroke_hz=stroke_hz, **levels), (0.96 * stroke_hz, 1.04 * stroke_hz))
+    return Patch(partial(reciprocating, stroke_hz=stroke_hz, **levels))
 
 
 def _shaker(motor_hz: float, size_m: float | None = None) -> Patch:
-    return Patch(partial(vibration_motor, motor_hz=motor_hz), (0.95 * motor_hz, 1.05 * motor_hz), size_m)
+    return Patch(partial(vibration_motor, motor_hz=motor_hz), size_m)
 
 
 def _geared(motor_hz: float, output_hz: float, size_m: float | None, **levels: Any) -> Patch:
     """Return a geared motor; without a size an induction motor, whose speed depends on the mains and not on size."""
-    voice = partial(geared, motor_hz=motor_hz, output_hz=output_hz, on_mains=size_m is None, **levels)
-    return Patch(voice, (0.96 * motor_hz, 1.04 * motor_hz), size_m)
+    return Patch(partial(geared, motor_hz=motor_hz, output_hz=output_hz, on_mains=size_m is None, **levels), size_m)
 
 
 def _strokes(per_second: float, body_hz: float, decay_s: float, **levels: Any) -> Patch:
-    """Return blows on a ringing body. They are steady if too fast to be felt one by one; slower ones do not loop."""
-    voice = partial(blows, per_second=per_second, body_hz=body_hz, decay_s=decay_s, **levels)
-    # The strongest line of a fast pulse train is the multiple of its rate nearest to the body's pitch.
-    spread = max(0.06 * body_hz, 0.6 * per_second)
-    return Patch(voice, (body_hz - spread, body_hz + spread), is_steady=per_second > 10.0)
+    return Patch(partial(blows, per_second=per_second, body_hz=body_hz, decay_s=decay_s, **levels))
 
 
-def _tool(motor_hz: float, spindle_hz: float, size_m: float, *, loud_hz: float | None = None, **levels: Any) -> Patch:
-    voice = partial(power_tool, motor_hz=motor_hz, spindle_hz=spindle_hz, **levels)
-    loud_hz = loud_hz or motor_hz
-    return Patch(voice, (0.96 * loud_hz, 1.04 * loud_hz), size_m)
+def _tool(motor_hz: float, spindle_hz: float, size_m: float, **levels: Any) -> Patch:
+    return Patch(partial(power_tool, motor_hz=motor_hz, spindle_hz=spindle_hz, **levels), size_m)
 
 
-MOTOR = Patch(motor, (46.0, 50.0), 0.4)
-_HUM = Patch(mains_hum, (99.8, 100.2))
-_COMPRESSOR = Patch(compressor, (48.5, 49.5))
+MOTOR = Patch(motor, 0.4)
+_HUM = Patch(mains_hum)
+_COMPRESSOR = Patch(compressor)
 # An induction motor of two poles turns the crank.
 _PISTONS = _to_and_fro(47.5, rattle=0.3, speed=Take.mains_speed_hz)
 # A coil pulls the piston of an espresso machine once per cycle, since a diode passes only one half wave.
-_VIBRATORY_PUMP = replace(_to_and_fro(50.0, rattle=0.2, speed=Take.magnet_hz), dominant_hz=(49.8, 50.2))
+_VIBRATORY_PUMP = _to_and_fro(50.0, rattle=0.2, speed=Take.magnet_hz)
 # Clippers without a rotating motor make 6000 strokes a minute at 50 Hz, and 7200 at 60 Hz (data sheets, from memory).
-_MAGNET_CLIPPER = replace(_to_and_fro(100.0, rattle=0.15, speed=Take.magnet_hz), dominant_hz=(99.6, 100.4))
+_MAGNET_CLIPPER = _to_and_fro(100.0, rattle=0.15, speed=Take.magnet_hz)
 # Bubbles rise in surges.
-_BOILING = Patch(partial(bubbles, largest_hz=90.0, smallest_hz=380.0), (80.0, 420.0), rhythm=Rhythm(4.3, 0.4, 0.02))
-_SIZZLING = Patch(partial(bubbles, largest_hz=150.0, smallest_hz=500.0, per_second=1200.0), (130.0, 550.0))
-_CRACKLING = Patch(
-    partial(bubbles, largest_hz=100.0, smallest_hz=400.0, per_second=40.0), (80.0, 440.0), is_steady=False
-)
+_BOILING = Patch(partial(bubbles, largest_hz=90.0, smallest_hz=380.0), rhythm=Rhythm(4.3, 0.4, 0.02))
+_SIZZLING = Patch(partial(bubbles, largest_hz=150.0, smallest_hz=500.0, per_second=1200.0))
+_CRACKLING = Patch(partial(bubbles, largest_hz=100.0, smallest_hz=400.0, per_second=40.0))
 # Drops strike a panel of a roof or a window at random, and each lets it ring.
-_RAIN = Patch(partial(bubbles, largest_hz=80.0, smallest_hz=300.0, per_second=450.0), (70.0, 330.0))
-_RINGING_PHONE = Patch(ringing_motor, (175.0, 190.0), is_steady=False)
-# The case rings at the multiples of 25 Hz around its pitch.
-_TELEPHONE = Patch(telephone_bell, (170.0, 290.0), is_steady=False)
-_VIBRATION = Patch(vibration_motor, (175.0, 190.0))
+_RAIN = Patch(partial(bubbles, largest_hz=80.0, smallest_hz=300.0, per_second=450.0))
+_RINGING_PHONE = Patch(ringing_motor)
+_TELEPHONE = Patch(telephone_bell)
+_VIBRATION = Patch(vibration_motor)
 # The escapement of a clockwork ticks four or five times a second.
 _TIMER = _strokes(4.5, 330.0, 0.015, click=0.6)
-_TICK = Patch(partial(blows, per_second=1.0, body_hz=210.0, decay_s=0.03), (180.0, 240.0), 0.3, is_steady=False)
-_ALARM = Patch(partial(buzzer, pitch_hz=240.0, on_s=0.25, off_s=0.25), (235.0, 245.0), is_steady=False)
-_HORN = Patch(partial(buzzer, pitch_hz=220.0), (215.0, 225.0))
-_BUZZER = Patch(partial(buzzer, pitch_hz=100.0, on_mains=True), (99.8, 100.2))
+_TICK = Patch(partial(blows, per_second=1.0, body_hz=210.0, decay_s=0.03), 0.3)
+_ALARM = Patch(partial(buzzer, pitch_hz=240.0, on_s=0.25, off_s=0.25))
+_HORN = Patch(partial(buzzer, pitch_hz=220.0))
+_BUZZER = Patch(partial(buzzer, pitch_hz=100.0, on_mains=True))
 # Wings of a worker bee beat at some 235 Hz; there are always some at work (from memory).
-_BEES = replace(Patch(partial(buzzer, pitch_hz=235.0), (230.0, 240.0)), rhythm=Rhythm(3.3, 0.28, 0.1))
+_BEES = Patch(partial(buzzer, pitch_hz=235.0), rhythm=Rhythm(3.3, 0.28, 0.1))
 _CHIME = _strokes(1.0, 260.0, 0.35, click=0.1)
 # Cats purr at 26.3 Hz, give or take 2, breathing in and out (Frazer Sissom, Rice and Peters, J Zool 223, 1991).
 _PURR = replace(_strokes(26.3, 79.0, 0.012, click=0.05), rhythm=Rhythm(1.4, 0.28, 0.03))
 _DRIP = _strokes(1.3, 300.0, 0.02)
-_JACKHAMMER = Patch(partial(blows, per_second=25.0, body_hz=125.0, decay_s=0.03), (95.0, 155.0))
+_JACKHAMMER = _strokes(25.0, 125.0, 0.03)
 _CLATTER = _strokes(30.0, 120.0, 0.015)
 # A motor of 7000 turns a minute drives the needle by a belt, for up to 850 stitches a minute, in machines of any size.
 # A crank moves the needle, so that its strokes are regular (data sheets of household machines, from memory).
-_STITCHES = Patch(
-    partial(geared, motor_hz=117.0, output_hz=14.0, load=0.3, rumble=0.3, thump_hz=112.0, slack=0.0), (112.0, 122.0)
-)
+_STITCHES = Patch(partial(geared, motor_hz=117.0, output_hz=14.0, load=0.3, rumble=0.3, thump_hz=112.0, slack=0.0))
 # 4200 blows a minute of a pneumatic striker (data sheets of rotary hammers of 3 kg, from memory).
 _ROTARY_HAMMER = _strokes(70.0, 140.0, 0.012)
 _CAR = _engine(28.0, 2, 4.5)
@@ -126,12 +105,12 @@ _BLENDER = replace(_tool(290.0, 290.0, 0.4, spindle=0.0), rhythm=Rhythm(13.0, 0.
 _COFFEE_GRINDER = replace(_tool(260.0, 260.0, 0.25, spindle=0.0), rhythm=Rhythm(21.0, 0.5, 0.05))
 # A universal motor behind a planetary gear, whose beater meets the dough two or three times a second.
 _DOUGH_MIXER = _geared(165.0, 2.6, 0.4, load=0.3, rumble=0.3)
-_GRINDER = _tool(420.0, 183.0, 0.3, spindle=1.5, loud_hz=183.0)
+_GRINDER = _tool(420.0, 183.0, 0.3, spindle=1.5)
 _CUTTER = _tool(300.0, 300.0, 0.3, spindle=0.0)
 # Blades of 165 to 250 mm turn 5500 times a minute, behind a gear of 1 to 4 (data sheets, from memory).
-_CIRCULAR_SAW = _tool(370.0, 92.0, 0.4, spindle=1.5, loud_hz=92.0)
-_PUMP = Patch(pump, (276.0, 300.0), 0.3)
-_MUSIC = Patch(music, (60.0, 135.0), is_steady=False)
+_CIRCULAR_SAW = _tool(370.0, 92.0, 0.4, spindle=1.5)
+_PUMP = Patch(pump, 0.3)
+_MUSIC = Patch(music)
 # Blades that differ slightly, loaded by air; 1400 turns a minute. With more flow, some takes would be felt at the blade
 # rate and others at twice this rate, since noise uses up the head-room that 100 Hz needs.
 _BREEZE = replace(_fan(23.3, 5, 0.4, rotor=0.5, blade=1.0, flow=0.7), rhythm=Rhythm(1.9, 0.28, 0.02))
@@ -157,12 +136,12 @@ _WINCH = _geared(48.0, 6.0, None)
 _ELECTRIC_DRIVE = _geared(90.0, 8.0, 1.5)
 _TUMBLER = replace(_geared(48.0, 0.85, None, load=0.1, thump_hz=70.0), rhythm=Rhythm(0.85, 0.28, 0.0))
 # Each move begins with a jerk.
-_STEPPER = Patch(stepper, (85.0, 265.0), rhythm=Rhythm(2.7, 0.28, 0.02))
-_ROLLING = Patch(rolling, (40.0, 60.0))
-_HISS = Patch(jet, (45.0, 300.0))
-_WATER = Patch(partial(jet, low_hz=60.0, tilt_db=-4.5), (55.0, 350.0))
-_ROAR = Patch(partial(jet, low_hz=40.0, tilt_db=-5.5), (38.0, 200.0))
-_STEAM = Patch(partial(jet, pump=1.5), (49.5, 50.5))
+_STEPPER = Patch(stepper, rhythm=Rhythm(2.7, 0.28, 0.02))
+_ROLLING = Patch(rolling)
+_HISS = Patch(jet)
+_WATER = Patch(partial(jet, low_hz=60.0, tilt_db=-4.5))
+_ROAR = Patch(partial(jet, low_hz=40.0, tilt_db=-5.5))
+_STEAM = Patch(partial(jet, pump=1.5))
 
 # Names (any of them), verbs (any of them; "" for all), patch.
 TABLE: tuple[tuple[str, str, Patch], ...] = (
@@ -170,7 +149,7 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("refrigerator, freezer, minibar, wine cooler, water cooler, dehumidifier, milk tank", "", _COMPRESSOR),
     ("water dispenser, vending machine, heat pump, ice machine, ice maker", "", _COMPRESSOR),
     # Its transformer feeds a rectifier of one diode: every other half wave pulls harder.
-    ("microwave", "", Patch(microwave, (99.8, 100.2), rhythm=Rhythm(50.0, 0.4, 0.0, on_mains=True))),
+    ("microwave", "", Patch(microwave, rhythm=Rhythm(50.0, 0.4, 0.0, on_mains=True))),
     ("hood", "", _fan(42.0, 7, 0.6, flow=0.7)),
     ("oven, stove, cooktop, cooker, hob, hotplate, toaster", "", _HUM),
     ("cooker, steamer", "boil, bubble, simmer", _BOILING),
@@ -181,7 +160,7 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("pan, wok, fryer, iron", "sizzle, fry, sear", _SIZZLING),
     ("grill, barbecue", "", _SIZZLING),
     # Two spray arms pass at 40 turns a minute.
-    ("dishwasher", "", Patch(pump, (276.0, 300.0), 0.6, rhythm=Rhythm(1.3, 0.28, 0.0))),
+    ("dishwasher", "", Patch(pump, 0.6, rhythm=Rhythm(1.3, 0.28, 0.0))),
     ("coffeemaker", "", _VIBRATORY_PUMP),
     ("blender, food processor, juicer, milk frother", "", _BLENDER),
     ("coffee grinder, coffee mill, spice grinder", "", _COFFEE_GRINDER),
@@ -192,10 +171,10 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("bread maker", "", _KNEADER),
     ("knife", "", _to_and_fro(50.0, rattle=0.3)),
     # bathroom and laundry
-    ("washer", "", Patch(washing, (99.8, 100.2))),
-    ("washer", "spin, centrifuge, dry", Patch(spinner, (204.0, 221.0), 0.6)),
-    ("washer", "rinse, fill, flow", Patch(partial(washing, drum_hz=0.7, slosh=0.5), (99.8, 100.2))),
-    ("washer", "drain, pump", Patch(partial(pump, vanes=3), (138.0, 150.0), 0.6)),
+    ("washer", "", Patch(washing)),
+    ("washer", "spin, centrifuge, dry", Patch(spinner, 0.6)),
+    ("washer", "rinse, fill, flow", Patch(partial(washing, drum_hz=0.7, slosh=0.5))),
+    ("washer", "drain, pump", Patch(partial(pump, vanes=3), 0.6)),
     ("dryer, dry cleaner", "", _TUMBLER),
     # Its head passes from tooth to tooth.
     ("toothbrush, facial brush", "", replace(_to_and_fro(260.0), rhythm=Rhythm(4.5, 0.28, 0.02))),
@@ -225,7 +204,7 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("vacuum", "", replace(_fan(330.0, 7, 0.4, blade=0.1, flow=0.6), rhythm=Rhythm(2.8, 0.28, 0.02))),
     ("steam cleaner, steamer, iron, paint sprayer, sprayer", "", _STEAM),
     ("sprinkler, hose, car wash", "", _HISS),
-    ("pressure washer", "", Patch(partial(pump, vanes=3), (138.0, 150.0), 0.6)),
+    ("pressure washer", "", Patch(partial(pump, vanes=3), 0.6)),
     # small things
     ("phone, smartwatch, pager, tablet", "", _RINGING_PHONE),
     ("telephone, rotary phone, landline, payphone, phone booth", "", _TELEPHONE),
@@ -319,11 +298,11 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("scooter, forklift, car, bike, skateboard, hoverboard, segway, wheelchair", "hum", _ELECTRIC_DRIVE),
     ("electric car, bumper car, golf cart, toy train, stacker, submarine, thruster", "", _ELECTRIC_DRIVE),
     ("train, tram, subway, metro", "", _ROLLING),
-    # The first shaft of a turbofan at cruise; its blade rate is far above the range of touch.
     # Two blades at 2400 turns a minute pass as often as its four cylinders fire (data sheets, from memory).
     ("propeller plane", "", _engine(80.0, 1, 8.0)),
+    # The first shaft of a turbofan at cruise; its blade rate is far above the range of touch.
     ("airplane, aeroplane, plane, jet", "", _fan(75.0, 24, 30.0, blade=0.05, flow=0.8)),
-    ("helicopter", "", Patch(rotor_slap, (45.0, 85.0))),
+    ("helicopter", "", Patch(rotor_slap)),
     # by verb, if the object is unknown
     ("", "boil, bubble, simmer", _BOILING),
     ("", "sizzle, fry", _SIZZLING),

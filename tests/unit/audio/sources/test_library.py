@@ -9,7 +9,7 @@ import pytest
 import soundfile
 
 from scene2hap.audio.clip import Credit
-from scene2hap.audio.files import write_wav
+from scene2hap.audio.files import encoded
 from scene2hap.audio.protocol import AudioSource
 from scene2hap.audio.sources import SOURCES
 from scene2hap.audio.sources.library import FolderLibrary, UnreadableSound
@@ -25,7 +25,7 @@ def fill(folder: Path, *names: str) -> Path:
     for name in names:
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_wav(path, 0.1 * np.ones(100), 8000)
+        path.write_bytes(encoded(0.1 * np.ones(100), 8000))
     return folder
 
 

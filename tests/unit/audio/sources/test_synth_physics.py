@@ -275,8 +275,8 @@ def made(noun: str, state: str, intensity: float) -> AudioClip:
 
 
 def test_every_state_has_a_voice_of_its_own() -> None:
+    from scene2hap.audio.sources.synth.synthesizer import patch_for
     from scene2hap.audio.sources.synth.table import MOTOR
-    from scene2hap.audio.sources.synth.vocabulary import patch_for
 
     some_motor = [
         (noun, state) for noun, state, _ in STATES if patch_for(noun, describe(noun, state).keywords, state) is MOTOR
