@@ -618,13 +618,14 @@ export class Scene2HapClient extends EventTarget {
   }
 
   /**
-   * Set where an object is, from the next frame on.
+   * Set where an object is, from the next frame on. A position alone (x, y, z) keeps the rotation.
    *
    * @param {string} id
    * @param {ArrayLike<number>} pose x, y, z [m], quaternion x, y, z, w; see `poseOf`
    */
   setPose(id, pose) {
-    if (!areFinite(pose, 7)) {
+    const n = pose?.length === 3 ? 3 : 7;
+    if (!pose || !areFinite(pose, n)) {
       this.#report(`The pose of ${JSON.stringify(id)} needs 7 finite numbers: x, y, z [m], quaternion x, y, z, w.`);
       return;
     }
@@ -633,15 +634,16 @@ export class Scene2HapClient extends EventTarget {
       const index = this.#objectIndex.get(id);
       if (index !== undefined && index >= /** @type {Order} */ (this.#order).n_moving) {
         const problem = `${JSON.stringify(id)} is not among the moving objects, so its pose is not sent.`;
-        this.#report(`${problem} Name all that moves in play or setMoving.`, "not moving");
+        this.#reportWrong(`${problem} Name all that moves in play or setMoving.`, "not moving");
       } else if (index === undefined && !known) {
-        this.#reportUnknown(id, "its pose is not sent");
+        this.#reportWrong(`No object has the id ${JSON.stringify(id)}; its pose is not sent.`);
       }
     }
-    if (!known) this.#poses.set(id, Float32Array.from(pose));
+    const kept = known ?? Float32Array.of(0, 0, 0, 0, 0, 0, 1);
+    if (!known) this.#poses.set(id, kept);
     // Compared as the server gets them, in single precision.
-    else if (known.every((value, i) => value === Math.fround(pose[i]))) return;
-    else known.set(pose);
+    else if (known.every((value, i) => i >= n || value === Math.fround(pose[i]))) return;
+    for (let i = 0; i < n; i += 1) kept[i] = pose[i];
     this.#hasMoved = true;
   }
 
@@ -682,7 +684,7 @@ export class Scene2HapClient extends EventTarget {
     for (const [name, { object, point_m }] of this.#touches) {
       const [hand, index] = [order.hands.indexOf(name), this.#objectIndex.get(object) ?? -1];
       if (hand < 0) this.#report(`No hand is called ${JSON.stringify(name)}; hands are ${order.hands.join(", ")}.`);
-      else if (index < 0) this.#reportUnknown(object, `${name} touches nothing`);
+      else if (index < 0) this.#reportWrong(`No object has the id ${JSON.stringify(object)}; ${name} touches nothing.`);
       else touches.push({ hand, object: index, point_m });
     }
     const key = /** @type {string} */ (order.key);
@@ -824,10 +826,10 @@ export class Scene2HapClient extends EventTarget {
     this.#fail("FrameError", message);
   }
 
-  #reportUnknown(id, effect) {
-    // An object that is being added or spawned is not unknown.
-    const isChanging = [...this.#requests.values()].some(({ type }) => type === "add" || type === "spawn");
-    if (!isChanging) this.#report(`No object has the id ${JSON.stringify(id)}; ${effect}.`);
+  /** Report a wrong id, unless a request waits whose answer may make it right. */
+  #reportWrong(message, key = message) {
+    const isChanging = [...this.#requests.values()].some(({ type }) => ["add", "spawn", "moving"].includes(type));
+    if (!isChanging) this.#report(message, key);
   }
 
   /** Report an error of this side in the form of the server's, and return it. */

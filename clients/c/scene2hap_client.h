@@ -2056,6 +2056,16 @@ static void s2h__report_once(s2h_client *c, int what, const char *format, const 
   s2h__note_error(c, "FrameError", 0, "%s: %s", text, format);
 }
 
+/* Whether a request waits whose answer may make an id right that is wrong now. */
+static bool s2h__is_changing(const s2h_client *c) {
+  size_t i;
+  for (i = 0; i < c->n_pending; ++i) {
+    const char *type = c->pending[i].type;
+    if (strcmp(type, "add") == 0 || strcmp(type, "spawn") == 0 || strcmp(type, "moving") == 0) return true;
+  }
+  return false;
+}
+
 bool s2h_is_playing(const s2h_client *c) {
   return c->state == S2H__ONLINE && c->play_phase == S2H__ACTIVE && !c->is_watching;
 }
@@ -2074,7 +2084,8 @@ bool s2h_set_pose(s2h_client *c, s2h_handle object, const float position_m[3], c
     s2h__report_once(c, S2H__NOT_FINITE, "its pose is not finite, so that it stays where it was.", name->text);
     return false;
   }
-  if (s2h_is_playing(c) && c->orders[0] != NULL && name->object >= (int64_t)c->orders[0]->n_moving) {
+  if (s2h_is_playing(c) && c->orders[0] != NULL && name->object >= (int64_t)c->orders[0]->n_moving &&
+      !s2h__is_changing(c)) {
     s2h__report_once(c, S2H__NOT_MOVING,
                      "it is not among the moving objects, so that its pose is not sent. Name it in s2h_play or "
                      "s2h_set_moving.",
@@ -2146,8 +2157,10 @@ static size_t s2h__gather_touches(s2h_client *c, const s2h__order *order) {
     if (hand == order->n_hands) {
       s2h__report_once(c, S2H__NO_HAND, "the session has no such hand.", c->names[one->hand].text);
     } else if (c->names[one->object].object < 0) {
-      s2h__report_once(c, S2H__NO_OBJECT, "the session has no such object, so that no hand touches it.",
-                       c->names[one->object].text);
+      if (!s2h__is_changing(c)) {
+        s2h__report_once(c, S2H__NO_OBJECT, "the session has no such object, so that no hand touches it.",
+                         c->names[one->object].text);
+      }
     } else {
       c->rows[n].hand = (uint32_t)hand;
       c->rows[n].object = (uint32_t)c->names[one->object].object;

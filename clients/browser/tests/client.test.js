@@ -315,7 +315,8 @@ test("a pose or point that is no number is reported once, and the rest of the fr
   client.touch("left", "table", vector);
   for (let i = 0; i < 2; i += 1) {
     client.setPose("phone", [0, NaN, 0, 0, 0, 0, 1]);
-    client.setPose("phone", [0, 1, 0]);
+    client.setPose("phone", [0, 1]);
+    client.setPose("phone", undefined);
     client.touch("right", "table", { x: 0, y: 0, z: 0 });
     client.touch("right", "table", undefined);
     client.touch("right", "table", [0, Infinity, 0]);
@@ -329,6 +330,23 @@ test("a pose or point that is no number is reported once, and the rest of the fr
   assert.equal(errors.length, 2);
   assert.match(errors[0], /"phone" needs 7 finite numbers/);
   assert.match(errors[1], /"right" needs 3 finite numbers/);
+});
+
+test("a position alone keeps the rotation", async () => {
+  const client = makeClient();
+  client.setPose("cup", [1, 2, 3]);
+  await playing(client, { objects: ["phone", "cup", "table"], n_moving: 2 });
+  client.setPose("phone", [0, 1, 0, 0, 1, 0, 0]);
+  client.setPose("phone", [5, 6, 7]);
+  client.sendFrame(1);
+  const numbers = (at) => Array.from({ length: 7 }, (_, i) => FakeSocket.last.frames.at(-1).getFloat32(at + 4 * i, true));
+  assert.deepEqual(numbers(40), [5, 6, 7, 0, 1, 0, 0]);
+  assert.deepEqual(numbers(68), [1, 2, 3, 0, 0, 0, 1]);
+  FakeSocket.last.bytes(gainsOf({ sequence: 1 }));
+  client.setPose("phone", [5, 6, 7]); // is where it was
+  client.sendFrame(2);
+  assert.equal(FakeSocket.last.frames.at(-1).getUint32(32, true), 0);
+  assert.deepEqual(heardOf("error"), []);
 });
 
 test("an object without a pose is left to the server to refuse", async () => {
@@ -350,6 +368,17 @@ test("objects that were just added or spawned may be posed and touched before th
   for (const type of ["add", "spawn"]) FakeSocket.last.answer(type, { type: "error", error: "No", message: "no" });
   client.sendFrame(2);
   assert.match(heardOf("error").at(-1).message, /No object has the id "fan"/);
+});
+
+test("objects may be posed before the answer to setMoving", async () => {
+  const client = makeClient();
+  await playing(client);
+  client.setMoving(["phone", "table"]);
+  client.setPose("table", [1, 0, 0, 0, 0, 0, 1]);
+  assert.deepEqual(heardOf("error"), []);
+  FakeSocket.last.answer("moving", { type: "error", error: "No", message: "no" });
+  client.setPose("table", [2, 0, 0, 0, 0, 0, 1]);
+  assert.match(heardOf("error").at(-1).message, /"table" is not among the moving objects/);
 });
 
 test("a second play or watch is refused, and the session goes on", async () => {

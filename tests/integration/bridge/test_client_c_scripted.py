@@ -473,6 +473,34 @@ def test_a_pose_of_an_object_that_does_not_move_is_reported_once(driver: Driver)
     assert text.startswith("table: it is not among the moving objects")
 
 
+def test_an_object_may_be_posed_and_touched_before_the_answer_to_its_request(driver: Driver) -> None:
+    def handle(ws: ServerConnection, _: int) -> None:
+        begin(ws)
+        requests = [next_request(ws, kind) for kind in ("moving", "spawn")]
+        assert len(next_frame(ws).touches) == 0
+        for request in requests:
+            say(ws, "error", re=request["id"], error="No", message="refused")
+        next_frame(ws)
+        say(ws, "warning", message="all")
+        until_closed(ws)
+
+    with scripted(handle) as url:
+        start(driver, url)
+        driver.one("request moving phone table")
+        driver.one("request spawn")
+        driver.one("pose table 0 1 0")
+        driver.one("pose phone 0 1 0")
+        driver.one("touch left fan 0")
+        driver.do("frame 0.1")
+        errors = [driver.until("error")["text"] for _ in range(2)]
+        assert errors == ["refused", "refused"]
+        driver.one("pose table 0 2 0")
+        driver.do("frame 0.2")
+        driver.until("warning")
+        told = [one["text"] for one in driver.before if one["event"] == "error"]
+    assert [text.partition(":")[0] for text in told] == ["table", "fan"]
+
+
 def test_client_reports_a_missing_server_and_connects_later(driver: Driver) -> None:
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
