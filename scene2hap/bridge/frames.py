@@ -98,10 +98,10 @@ def decode_frame(message: bytes) -> Frame:
     if not math.isfinite(time_s):
         raise BridgeError("the time of a frame is not finite; send finite seconds.")
     for name, rows in (("pose", poses), ("touch", touches["point_m"])):
-        are_finite = np.isfinite(rows).all(axis=1)
+        are_finite = np.isfinite(rows)
         if not are_finite.all():
             raise BridgeError(
-                f"{name} {are_finite.argmin()} of a frame has a number that is not finite; send finite positions, "
+                f"{name} {are_finite.all(axis=1).argmin()} of a frame has a number that is not finite; send finite positions, "
                 f"rotations and points. The first {name} is number 0."
             )
     return Frame(layout, key, sequence, time_s, poses, touches)

@@ -23,7 +23,7 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.cli.bake import SCENE_ARGUMENTS, add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
 from scene2hap.cli.shared_options import reject_unused
-from scene2hap.errors import BundleError
+from scene2hap.errors import BundleError, ConfigError
 from scene2hap.haptics import SourceState
 
 _PICTURE_PX = 256
@@ -47,6 +47,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Show the inferred values, or write and serve the page."""
     if not (arguments.output or arguments.serve):
         reject_unused(arguments, ("scene", "model"), "Add -o PAGE.html or --serve for a page.")
+    elif arguments.objects:
+        raise ConfigError(f"{', '.join(arguments.objects)}: no effect here. A page shows all objects; leave them out.")
     if not arguments.serve:
         reject_unused(arguments, ("port",), "Add --serve.")
     if not arguments.scene:

@@ -46,6 +46,7 @@ def test_report_on_a_missing_object_is_refused(bundle: Path, capsys: pytest.Capt
         ("report B --group leaf", "--group: no effect here. Name the scene file by --scene SCENE."),
         ("report B -o PAGE --unit-m 0.01 --up-axis y", "--unit-m, --up-axis: no effect here. Name the scene file by"),
         ("report B --scene room.glb --model modal_plate", "--scene, --model: no effect here. Add -o PAGE.html or"),
+        ("report B table -o PAGE", "table: no effect here. A page shows all objects; leave them out."),
         ("report B -o PAGE --port 80", "--port: no effect here. Add --serve."),
         ("inspect B --group leaf", "b' is a bundle. Bake its scene file again with it."),
     ],

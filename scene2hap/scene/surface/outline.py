@@ -15,9 +15,9 @@ from scene2hap.common import checks
 from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import SceneError
-from scene2hap.scene.geometry import counted_up
+from scene2hap.scene.geometry import Real, counted_up
 
-Ring = tuple[tuple[float, float], ...]
+Ring = tuple[tuple[Real, Real], ...]
 
 MOST_CORNERS = 4096
 SHARPEST = math.radians(30.0)

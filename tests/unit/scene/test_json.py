@@ -183,6 +183,8 @@ def _document() -> dict[str, Any]:
         (("objects", 0, "pose", "position_m"), [0, True, 0], r"position_m\.1: it must be a number"),
         (("objects", 0, "pose", "rotation_xyzw"), [0, 0, 0, "1"], r"rotation_xyzw\.3: it must be a number"),
         (("objects", 0, "surface", "length_m"), "1", r"surface\.length_m: it must be a number"),
+        (("objects", 0, "surface", "outline"), {"rings_m": [[[0, 0], [1, 0], ["1", 1]]]}, "it must be a number"),
+        (("objects", 0, "surface", "outline"), {"rings_m": [[[0, 0], [True, 0], [1, 1]]]}, "it must be a number"),
         (("objects", 0, "geometry"), {"size_m": [1, True, 1]}, r"geometry\.size_m\.1: it must be a number"),
         (("objects", 0, "hinge"), {"to": "b", "point_m": [0, 0, "0"], "other_point_m": [0, 0, 0]}, "must be a number"),
         (("contacts",), [{"a": "a", "b": "b", "point_m": [0, 0, 0], "weight": True}], "weight: it must be a number"),
