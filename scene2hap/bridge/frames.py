@@ -101,8 +101,8 @@ def decode_frame(message: bytes) -> Frame:
         are_finite = np.isfinite(rows)
         if not are_finite.all():
             raise BridgeError(
-                f"{name} {are_finite.all(axis=1).argmin()} of a frame has a number that is not finite; send finite positions, "
-                f"rotations and points. The first {name} is number 0."
+                f"{name} {are_finite.all(axis=1).argmin()} of a frame has a number that is not finite; send finite "
+                f"positions, rotations and points. The first {name} is number 0."
             )
     return Frame(layout, key, sequence, time_s, poses, touches)
 

@@ -193,7 +193,7 @@ class Override:
 
 def _of_constants(name: str, constants: Mapping[str, Any]) -> Material:
     try:
-        return Material(**constants)
+        return Material(**{str(field): value for field, value in constants.items()})
     except CallError as cause:
         known = ", ".join(one.name for one in fields(Material))
         raise BundleError(

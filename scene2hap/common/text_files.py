@@ -152,16 +152,16 @@ def put_in_place(draft: Path, path: Path) -> None:
 
 
 class DraftSet:
-    """Drafts of several files. As a context it removes those that have not replaced their files."""
+    """Drafts of several files, each with its file. As a context it removes those that `put_in_place` has not used."""
 
     def __init__(self) -> None:
-        self._drafts: list[tuple[Path, Path]] = []
+        self.drafts: list[tuple[Path, Path]] = []
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
-        for draft, _path in self._drafts:
+        for draft, _path in self.drafts:
             with suppress(OSError):
                 draft.unlink(missing_ok=True)
 
@@ -169,13 +169,8 @@ class DraftSet:
         """Write the draft of one more file. Raises: OSError: it cannot be written, or cannot replace what is there."""
         require_place(path)
         draft = draft_path(path)
-        self._drafts.append((draft, path))
+        self.drafts.append((draft, path))
         draft.write_bytes(content)
-
-    def put_in_place(self) -> None:
-        """Replace the files by their drafts, in the order of `write`. Raises: OSError: one cannot be replaced."""
-        for draft, path in self._drafts:
-            put_in_place(draft, path)
 
 
 def write_whole(path: Path, content: str | bytes) -> None:

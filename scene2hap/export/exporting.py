@@ -26,7 +26,7 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
 from scene2hap.common.counted import counted
 from scene2hap.common.json_texts import parse_json
-from scene2hap.common.text_files import DraftSet, require_place
+from scene2hap.common.text_files import DraftSet, put_in_place, require_place
 from scene2hap.common.warning import warn_of
 from scene2hap.devices.memory import MemorySink
 from scene2hap.errors import ConfigError, ExportError, unwritable
@@ -229,8 +229,9 @@ def _write(
         _draft(drafts, folder, "report.txt", f"{report}\n".encode())
         if manifest is not None:
             _draft(drafts, folder, NAME, manifest(report))
-        with _writing(folder):
-            drafts.put_in_place()
+        for draft, path in drafts.drafts:
+            with _writing(path):
+                put_in_place(draft, path)
     if manifest is not None:
         now = _files_of_sources(folder)
         if before is not None and now is not None and before[0] == now[0]:

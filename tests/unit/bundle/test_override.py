@@ -159,6 +159,7 @@ def test_bundle_without_overrides_file_has_no_overrides(bundle: HapticBundle, tm
             BundleError,
             "feet has name, colour; .* Only loss_factor may be left out",
         ),
+        ({"material": {7: 1}}, BundleError, "material has 7; the fields of a material are name"),
         (
             {"feet": {"name": "a", "density_kg_m3": -1, "youngs_modulus_pa": 1e9, "poisson_ratio": 0.3}},
             MaterialError,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import warnings
 from dataclasses import replace
 from pathlib import Path
@@ -174,6 +175,23 @@ def test_a_folder_in_the_place_of_a_file_is_found_before_any_is_replaced(tmp_pat
     with pytest.raises(ExportError, match=rf"{last.name} cannot be written: "):
         export_bundle(bundle, tmp_path, {"kind": "wav", "sample_rate_hz": 1000})
     assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before
+
+
+def test_a_file_that_cannot_be_replaced_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """On Windows, because an engine has it open."""
+    _, bundle = table_with_two_phones()
+    held = tmp_path / export_bundle(bundle, tmp_path, "wav").files[-1]
+    rename = os.replace
+
+    def refuse(draft: str, path: str) -> None:
+        if Path(path) == held:
+            raise PermissionError(13, "Access is denied")
+        rename(draft, path)
+
+    monkeypatch.setattr(os, "replace", refuse)
+    with pytest.raises(ExportError, match=rf"{held.name} cannot be written: Access is denied"):
+        export_bundle(bundle, tmp_path, "wav")
+    assert not any(path.name.startswith(".") for path in tmp_path.rglob("*"))
 
 
 @pytest.mark.parametrize(
