@@ -28,8 +28,7 @@ from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
-from contact_scenes import box, thing
-from contact_scenes import scene as snapshot_of
+from contact_scenes import box, scene as snapshot_of, thing
 from scene2hap import HapticBundle, HapticSession, Pose, TriMesh
 from scene2hap.scene.shapes import Box, Geometry
 from scene2hap.scene.solids import cylinder, ellipsoid

@@ -43,7 +43,8 @@ class MotionTrack:
 
     pose : the latest; middle_m : the middle of the box at this pose, in the world [m]; own_m : the same in the object's
     own frame [m]; steps : number of the update, time [s] and pose of each step; gap : updates from one step to the
-    next, the longest of late; far_m2 : square of the largest distance from where the present motion began [m2]; stopped_m : the last step before a landing that no further step confirmed, None if one
+    next, the longest of late; far_m2 : square of the largest distance from the place where the present motion began
+    [m2]; stopped_m : the last step before a landing that no further step confirmed, None if one
     did; goes_on : the object did not land then, but paused.
     """
 
