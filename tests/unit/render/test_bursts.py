@@ -25,6 +25,10 @@ def test_a_wave_has_a_peak_of_1_and_no_click(frequency_hz: float, decay_s: float
     assert wave[0] == 0.0
     assert abs(wave[-1]) < 1e-4
     assert above_1_khz_db(wave) < -60.0
+    # A wave of the strongest impact, at -6 dB, also clicks less than a step of -60 dB of full scale.
+    power = np.abs(np.fft.rfft(0.5 * wave, 1 << 17)) ** 2 / (1 << 16)
+    step = 1e-6 * RATE / (2 * np.pi**2 * 1150)  # energy of 1 / (2 pi f)^2 above 1150 Hz, to both sides
+    assert power[np.fft.rfftfreq(1 << 17, 1 / RATE) > 1150].sum() < step
 
 
 def test_wave_is_a_decaying_sine_of_stated_frequency_and_decay() -> None:
