@@ -65,9 +65,9 @@ def steps_db(samples: Signal) -> NDArray[np.float64]:
 def game(
     rng: np.random.Generator, kind: str, n_events: int, *, has_strikes: bool
 ) -> tuple[list[tuple[int, str]], NDArray[np.float32]]:
-    """Frame and name of each event, and the samples (n, 2). Their level is below -3 dB, where the limiter begins."""
+    """Frame and name of each event, and the samples (n, 2). With strikes, sums reach full scale."""
     snapshot, bundle = table_with_two_phones()
-    names, level = ((*EVENTS, "strike"), 0.08) if has_strikes else (EVENTS, 0.3)
+    names, level = (*EVENTS, "strike") if has_strikes else EVENTS, 0.3
     loops = {x: {s: tone_loop(2 * int(rng.integers(20, 200)), level) for s in its} for x, its in bundle.loops.items()}
     times = {"start_up_s": rng.uniform(0.1, 0.6), "wind_down_s": rng.uniform(0.1, 0.6), "spins": rng.random() < 0.5}
     phone = bundle.objects["phone"]
