@@ -17,13 +17,18 @@ from numpy.typing import NDArray
 
 Samples = NDArray[np.float32]
 
-ATTACK_S = 0.005
-"""Length of a sine's attack [s], half a cosine: a step of its slope would click. Assumed: too short to be felt."""
+ATTACK_S = 0.006
+"""Length of a sine's attack [s], x - sin(2 pi x) / (2 pi). It rises from 10 to 90 % as fast as half a cosine of 5 ms,
+and has 15 dB less energy above 1 kHz: that of a step of at most -65 dB of full scale. Assumed: too short to be felt."""
 END_DB = -46.0
-"""A wave ends at this level [dB], over a last half cosine; full scale is 45 dB over the threshold."""
+"""A wave ends at this level [dB], over such an attack reversed; full scale is 45 dB over the threshold."""
 _STEP = 256
 _STRETCH = 4096
 """Frames of a burst that are summed at a time."""
+MOST_SUM = 0.95
+"""Level up to which bursts fill an output, and from which sums are limited [-]."""
+HEARD_S = 0.025
+"""Time in which the level of an output is looked for before a burst [s]: half a period of 20 Hz."""
 _NONE: Samples = np.empty(0, dtype=np.float32)
 _FIRST_S, _FIRST_CYCLE_S = 0.06, 0.04
 """Time in which the peak of a sum is searched first, and end of the longest first cycle of a wave (30 Hz, with its
@@ -41,7 +46,8 @@ def wave_of(frequency_hz: float, decay_s: float, sample_rate_hz: int) -> Samples
     # A product of matrices (n / step, 2) and (2, step), in single precision, since a strike waits for the result.
     tables = np.stack([coarse.real, coarse.imag], axis=1), np.stack([fine.imag, fine.real])
     wave: Samples = np.matmul(*(table.astype(np.float32) for table in tables)).ravel()[:n]
-    edge = 0.5 - 0.5 * np.cos(np.pi * np.arange(max(1, round(ATTACK_S * sample_rate_hz))) / (ATTACK_S * sample_rate_hz))
+    x = np.arange(max(1, round(ATTACK_S * sample_rate_hz))) / (ATTACK_S * sample_rate_hz)
+    edge = x - np.sin(2 * np.pi * x) / (2 * np.pi)
     wave[: len(edge)] *= edge
     wave[-len(edge) :] *= edge[::-1]
     wave /= max(wave.max(), -wave.min())
@@ -102,6 +108,7 @@ class PlannedBurst:
         # By token: the first frame of the latest stretch, and its samples.
         self._stretches: dict[int, tuple[int, Samples]] = {}
         self.fade: Fade | None = None
+        self.is_fitted: bool = False
 
     @property
     def end(self) -> int:
@@ -112,6 +119,20 @@ class PlannedBurst:
     def delayed(self, begin: int) -> PlannedBurst:
         """Return the same burst from a later frame on."""
         return PlannedBurst(begin, self._waves, self._weights)
+
+    def fit(self, rooms: Mapping[int, float]) -> None:
+        """Make the burst weaker at each output that it would fill beyond its room [-]."""
+        self.is_fitted = True
+        weights = dict(self._weights)
+        for token in weights.keys() & rooms.keys():
+            stretch = summed([wave[:_STRETCH] for wave in self._waves], weights[token])
+            peak = float(np.abs(stretch).max(initial=0.0))
+            if peak > rooms[token]:
+                share = rooms[token] / peak
+                weights[token] = [share * weight for weight in weights[token]]
+                stretch *= np.float32(share)
+            self._stretches[token] = 0, stretch
+        self._weights = weights
 
     def samples(self, token: int, begin: int, end: int) -> Samples | None:
         """Return the samples of an output from `begin` to before `end`, or fewer; None for one without the burst."""
@@ -126,11 +147,17 @@ class PlannedBurst:
 
 
 class Bursts:
-    """All bursts that wait or play."""
+    """All bursts that wait or play.
 
-    def __init__(self) -> None:
+    Where an output is so loud that the sum would be limited, which clicks, a burst begins weaker.
+    Parameters: n_heard : frames that are kept of each mix, to know how loud it is; 0 leaves bursts as they are.
+    """
+
+    def __init__(self, n_heard: int = 0) -> None:
         self._incoming: deque[PlannedBurst | Fade] = deque()
         self._playing: list[PlannedBurst] = []
+        self._n_wanted, self._n_heard = n_heard, 0
+        self._heard: deque[Samples] = deque()
 
     @property
     def are_silent(self) -> bool:
@@ -150,6 +177,23 @@ class Bursts:
         """Fade out the bursts that were started before, and remove them."""
         self._incoming.append(fade)
 
+    def hear(self, mix: Samples) -> None:
+        """Keep what is played (n_frames, n_outputs), for later bursts."""
+        if not len(mix) or not self._n_wanted:
+            return
+        self._heard.append(mix)
+        self._n_heard += len(mix)
+        while self._n_heard - len(self._heard[0]) >= self._n_wanted:
+            self._n_heard -= len(self._heard.popleft())
+
+    def _rooms(self, mix: Samples, outputs: Sequence[int]) -> dict[int, float]:
+        """Return the room for a burst at each output [-]."""
+        if not self._n_wanted:
+            return {}
+        blocks = (block for block in (*self._heard, mix) if block.shape[1] == len(outputs))
+        levels = np.max([np.abs(block).max(axis=0, initial=0.0) for block in blocks], axis=0)
+        return dict(zip(outputs, np.maximum(MOST_SUM - levels, 0.0).tolist(), strict=True))
+
     def add_to(self, mix: Samples, position: int, outputs: Sequence[int]) -> None:
         """Add to a mix (n_frames, n_outputs) that begins at a frame; `outputs` are the tokens of its columns."""
         while self._incoming:
@@ -161,6 +205,8 @@ class Bursts:
                 burst.fade = burst.fade or one
         n_frames, end = len(mix), position + len(mix)
         for burst in self._playing:
+            if not burst.is_fitted and burst.begin < end:
+                burst.fit(self._rooms(mix, outputs))
             first = max(0, burst.begin - position)
             for channel, token in enumerate(outputs):
                 begin = position + first - burst.begin

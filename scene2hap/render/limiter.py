@@ -83,17 +83,19 @@ def turn_down_in_place(
     np.copyto(mix, u, casting="same_kind")
 
 
-def soft_limit_sum(mix: NDArray[np.float32], total: NDArray[np.float32]) -> NDArray[np.float32]:
+def soft_limit_sum(
+    mix: NDArray[np.float32], total: NDArray[np.float32], threshold: float = THRESHOLD
+) -> NDArray[np.float32]:
     """Return the sum of a limited mix and more signals within [-1, 1]; float32, `mix` and `total` of one shape.
 
-    The curve begins at -3 dB, or at the level of the mix where the mix is louder. A mix without additions is therefore
-    unchanged. A second pass of the whole curve would begin and end each impact with a step, at all hands. Of several
-    limited mixes, `mix` is the loudest.
+    The curve begins at the threshold [-], or at the level of the mix where the mix is louder. A mix without additions
+    is therefore unchanged. A second pass of the whole curve would begin and end each impact with a step, at all hands.
+    Of several limited mixes, `mix` is the loudest.
     """
     size = np.abs(total)
-    if not total.size or np.maximum.reduce(size, axis=None) <= THRESHOLD:
+    if not total.size or np.maximum.reduce(size, axis=None) <= threshold:
         return total
-    knee = np.maximum(np.abs(mix), np.float32(THRESHOLD))
+    knee = np.maximum(np.abs(mix), np.float32(threshold))
     rest = np.maximum(1 - knee, np.float32(1e-9))  # no division by 0 at full scale
     limited = np.copysign(knee + rest * np.tanh((size - knee) / rest), total)
     return np.where(size > knee, limited, total)

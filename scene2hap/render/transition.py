@@ -5,7 +5,7 @@
 Assumed, with x the share of the time: a motor starts up with the speed s = x (2 - x), and coasts down with s = (1 -
 x)^2. Its amplitude is a = s^2, the force of an unbalance. A source that does not spin keeps its pitch, and its
 amplitude follows half a cosine. Recorded: a is the recorded amplitude. If the recording shows a speed, s is that speed;
-else s = sqrt(a) for a source that spins.
+else s = sqrt(a) for a source that spins. The first 10 ms of a stop fade from steady running to these courses.
 
 A transition begins or ends in phase with the loop itself, so the change between them is seamless. After its end it is
 the loop, or silence, for as long as nothing replaces it: a game may not update for a while. A transition that begins
@@ -30,6 +30,8 @@ LEAD_S = 0.03
 """Time that a decaying loop continues unchanged while it replaces the steady one [s]."""
 SEARCH_S = 0.0125
 """Largest distance of that place from the start's own [s of the loop]: half a period of 40 Hz."""
+_EASE_S = 0.01
+"""Time over which a stop begins to slow down [s]. At once, a motor that stops within 0.1 s would click."""
 _ALIKE_S = 0.025
 """Length over which two places are compared [s of the loop]."""
 _NEARER = 0.1
@@ -116,6 +118,10 @@ class Transition:
         self.end: int = begin + self._lead + self._n
         x = np.minimum(share + _GRID * (self._n / lasts), 1.0)
         self._speed, self._amplitude = course.speed(x), course.amplitude(x)
+        if not course.goes_up:
+            eased = 0.5 - 0.5 * np.cos(np.pi * np.minimum(_GRID * max(1.0, self._n / (_EASE_S * rate)), 1.0))
+            for values in (self._speed, self._amplitude):
+                values[:] = values[0] + eased * (values - values[0])
         # At standstill and in steady running there is no difference of speed to fade.
         is_under_way = 0.0 < since.amplitude < 1.0
         if is_under_way:

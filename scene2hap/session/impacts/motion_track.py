@@ -43,11 +43,13 @@ class MotionTrack:
 
     pose : the latest; middle_m : the middle of the box at this pose, in the world [m]; own_m : the same in the object's
     own frame [m]; steps : number of the update, time [s] and pose of each step; gap : updates from one step to the
-    next, the longest of late; stopped_m : the last step before a landing that no further step confirmed, None if one
+    next, the longest of late; far_m2 : square of the largest distance from the place where the present motion began
+    [m2]; stopped_m : the last step before a landing that no further step confirmed, None if one
     did; goes_on : the object did not land then, but paused.
     """
 
     __slots__ = (
+        "far_m2",
         "gap",
         "goes_on",
         "middle_m",
@@ -76,6 +78,7 @@ class MotionTrack:
         self.since: int = update
         self.n_steps: int = 0
         self.origin_m: Vector = self.middle_m
+        self.far_m2: float = 0.0
         self.step_m: Vector = STILL
 
     def land(self, update: int) -> None:
@@ -92,8 +95,11 @@ class MotionTrack:
 
     @property
     def is_falling(self) -> bool:
-        """Whether it moved far enough in one direction, in more than one step; a single step may be a teleport."""
-        return self.n_steps > 1 and not self.goes_on and math.dist(self.origin_m, self.middle_m) >= LEAST_TRAVEL_M
+        """Whether it moved far enough in one direction, in more than one step; a single step may be a teleport.
+
+        A bounce that drifts sideways is one motion up and down, and ends near its beginning.
+        """
+        return self.n_steps > 1 and not self.goes_on and self.far_m2 >= LEAST_TRAVEL_M**2
 
     def has_stopped(self, update: int) -> bool:
         """Whether the next step is missing since exactly this update."""
@@ -145,6 +151,8 @@ class MotionTrack:
         self.stopped_m = None
         self.pose, self.middle_m, self.step_m = pose, middle_m, step_m
         self.n_steps += 1
+        (x, y, z), (u, v, w) = middle_m, self.origin_m
+        self.far_m2 = max(self.far_m2, (x - u) ** 2 + (y - v) ** 2 + (z - w) ** 2)
         self.steps.append((update, time_s, pose))
         if len(self.steps) > 4 * MOST_STEPS:
             del self.steps[: -2 * MOST_STEPS]

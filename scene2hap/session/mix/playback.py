@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from scene2hap.common.arrays import Indices
 from scene2hap.devices.protocol import Block
-from scene2hap.render.bursts import Bursts, Fade, PlannedBurst
+from scene2hap.render.bursts import HEARD_S, MOST_SUM, Bursts, Fade, PlannedBurst
 from scene2hap.render.limiter import soft_limit_sum
 from scene2hap.render.loop_bank import Slot, SlotBank, position_s
 from scene2hap.render.transition import Running, Transition, TransitionCurve
@@ -89,7 +89,7 @@ class Playback:
         self._banks = [self._new_bank(len(rows))]
         self._mixers = [MixerInstance(config, self._banks[0], tuple(self._hands.values()), 0)]
         self._plan = self._new_plan()
-        self._bursts = Bursts()
+        self._bursts = Bursts(round(HEARD_S * config.sample_rate_hz))
         self._pausing = Lock()  # else a worker may start a burst after the fade, which would play on after the pause
         self._limits: HandLimits | None = None
         # Twice the ramp, since gain changes in quick succession may have to wait.
@@ -342,7 +342,8 @@ class Playback:
         if not self._bursts.are_silent:
             total = mix.copy()
             self._bursts.add_to(total, self._position, plan.hands)
-            mix = soft_limit_sum(mix, total)
+            mix = soft_limit_sum(mix, total, MOST_SUM)
+        self._bursts.hear(mix)
         self._position += n_frames
         return mix
 

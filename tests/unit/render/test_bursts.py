@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import weakref
+
 import numpy as np
 import pytest
 
-from scene2hap.render.bursts import Bursts, Fade, PlannedBurst, Samples, peak_of, summed, wave_of
+from scene2hap.render.bursts import MOST_SUM, Bursts, Fade, PlannedBurst, Samples, peak_of, summed, wave_of
+from scene2hap.render.limiter import soft_limit_sum
 
 RATE = 48_000
 
@@ -25,6 +28,10 @@ def test_a_wave_has_a_peak_of_1_and_no_click(frequency_hz: float, decay_s: float
     assert wave[0] == 0.0
     assert abs(wave[-1]) < 1e-4
     assert above_1_khz_db(wave) < -60.0
+    # A wave of the strongest impact, at -6 dB, also clicks less than a step of -60 dB of full scale.
+    power = np.abs(np.fft.rfft(0.5 * wave, 1 << 17)) ** 2 / (1 << 16)
+    step = 1e-6 * RATE / (2 * np.pi**2 * 1150)  # energy of 1 / (2 pi f)^2 above 1150 Hz, to both sides
+    assert power[np.fft.rfftfreq(1 << 17, 1 / RATE) > 1150].sum() < step
 
 
 def test_wave_is_a_decaying_sine_of_stated_frequency_and_decay() -> None:
@@ -92,6 +99,41 @@ def test_late_burst_starts_with_the_next_frame() -> None:
     bursts.start(PlannedBurst(10, [wave], {0: [1.0]}))
     bursts.add_to(mix, 1000, (0,))
     np.testing.assert_array_equal(mix[:, 0], wave[:64])
+
+
+def played(level: float, n_heard: int, *, begin_at: int = 20_000) -> Samples:
+    """A tone at one of two outputs (48000, 2), and in its midst a strong burst at both."""
+    tone = (level * np.sin(2 * np.pi * 90.0 * np.arange(48_000) / 48_000)).astype(np.float32)
+    mixed, bursts = np.stack([tone, np.zeros_like(tone)], axis=1), Bursts(n_heard)
+    bursts.start(PlannedBurst(begin_at, [wave_of(130.0, 0.08, 48_000)], {0: [0.5], 1: [0.5]}))
+    for begin in range(0, len(mixed), 256):
+        mix = mixed[begin : begin + 256].copy()
+        bursts.add_to(mixed[begin : begin + 256], begin, (0, 1))
+        mixed[begin : begin + 256] = soft_limit_sum(mix, mixed[begin : begin + 256], MOST_SUM)
+        bursts.hear(mixed[begin : begin + 256])
+    return mixed
+
+
+def test_a_burst_on_a_loud_mix_is_not_limited() -> None:
+    """In an earlier version the limiter's curve took the peaks of both: -63 dB above 1 kHz, a click."""
+    for begin in range(20_000, 20_533, 67):  # a period of the tone
+        loud = played(0.7, 1200, begin_at=begin)
+        assert above_1_khz_db(loud[15_000:30_000, 0] * np.hanning(15_000)) < -100.0
+        assert np.abs(loud[begin:, 0]).max() > 0.85
+        np.testing.assert_array_equal(loud[:, 1], played(0.0, 0, begin_at=begin)[:, 1])
+
+
+def test_a_burst_on_a_quiet_mix_keeps_its_level() -> None:
+    np.testing.assert_array_equal(played(0.4, 1200), played(0.4, 0))
+
+
+@pytest.mark.parametrize("n_frames", [0, 64])
+def test_no_more_blocks_are_kept_than_are_needed(n_frames: int) -> None:
+    bursts, blocks = Bursts(100), [np.zeros((n_frames, 1), np.float32) for _ in range(100)]
+    kept = [weakref.ref(block) for block in blocks]
+    while blocks:
+        bursts.hear(blocks.pop())
+    assert sum(block() is not None for block in kept) == (2 if n_frames else 0)
 
 
 def test_fade_ends_all_bursts_without_a_click() -> None:

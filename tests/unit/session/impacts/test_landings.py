@@ -278,6 +278,23 @@ def test_each_bounce_lands() -> None:
     assert [one.onto for one in landings_of(bouncing())] == ["table", "table"]
 
 
+@pytest.mark.parametrize("begins", [0.0, 0.3, 0.6, 0.9])
+@pytest.mark.parametrize("across_m_s", [0.0, 0.02, 0.06])
+def test_low_bounce_with_a_slow_drift_lands(across_m_s: float, begins: float) -> None:
+    """At its highest point it goes on sideways, and at its end it is about where it began."""
+    meets_s = np.cumsum([0.0, *(2 * up / 9.81 for up in (0.45, 0.225, 0.1125))]).tolist()
+    path = []
+    for frame in range(60):
+        t = (frame + begins) * PERIOD_S - 0.2
+        n = sum(t > meets for meets in meets_s)
+        y = 0.04 - 9.81 / 2 * max(0.0, t + math.sqrt(0.08 / 9.81)) ** 2 if n == 0 else 0.0
+        if 0 < n < 4:
+            y = 0.9 / 2**n * (t - meets_s[n - 1]) - 9.81 / 2 * (t - meets_s[n - 1]) ** 2
+        path.append((across_m_s * t, RESTS_M + y, 0.0))
+    fast = [one for one in landings_of(iter(path)) if one.speed_m_s > 0.3]
+    assert [one.speed_m_s for one in fast[1:]] == pytest.approx([0.45], rel=0.1)
+
+
 def test_physics_at_half_the_update_rate_gives_one_landing() -> None:
     every_second = [position for position in fall(0.4, 2 * PERIOD_S) for _ in range(2)]
     found = landings_of(iter(every_second))
