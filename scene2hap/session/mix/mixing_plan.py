@@ -115,9 +115,7 @@ class MixingPlan:
         mixer, outputs, _ = self.mixers[0]
         if len(self.mixers) == 1 and len(outputs) == len(mixer.hands):
             return mixer.render(position, n_frames)
-        total, loudest = np.zeros((2, n_frames, self.n_channels), dtype=np.float32)
-        for mixer, outputs, channels in self.mixers:
-            mix = mixer.render(position, n_frames)[:, outputs]
-            total[:, channels] += mix
-            loudest[:, channels] = np.maximum(loudest[:, channels], np.abs(mix))
-        return soft_limit_sum(loudest, total)
+        mixes = np.zeros((len(self.mixers), n_frames, self.n_channels), dtype=np.float32)
+        for mix, (mixer, outputs, channels) in zip(mixes, self.mixers, strict=True):
+            mix[:, channels] = mixer.render(position, n_frames)[:, outputs]
+        return soft_limit_sum(np.abs(mixes).max(axis=0), mixes.sum(axis=0))
