@@ -37,10 +37,13 @@ def whole_loop(samples: Samples, sample_rate_hz: float) -> Samples:
 
 
 def is_between_silences(samples: Samples, sample_rate_hz: float) -> bool:
-    """Return True if a sound (n,) begins at rest and ends in silence, so that it repeats without a seam."""
-    limit = _AT_REST * float(np.abs(samples).max(initial=0.0))
-    tail = samples[len(samples) - round(_SILENCE_S * sample_rate_hz) :]
-    return len(tail) < len(samples) and abs(float(samples[0])) <= limit and float(np.abs(tail).max()) <= limit
+    """Return True if a sound (n,) ends in silence at the level of its first sample, so that it repeats without a seam.
+
+    A level other than 0 is an offset of the recording.
+    """
+    moved = np.abs(samples - samples[0])
+    n_tail = round(_SILENCE_S * sample_rate_hz)
+    return n_tail < len(moved) and float(moved[len(moved) - n_tail :].max()) <= _AT_REST * float(moved.max())
 
 
 def meets_itself(samples: Samples) -> bool:
