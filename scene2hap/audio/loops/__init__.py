@@ -12,6 +12,7 @@ cycles. `seam` fades them at constant power. `pair` cuts the audible and the tac
 
 from scene2hap.audio.loops.pair import loop_pair, middle_of
 from scene2hap.audio.loops.seam_search import CROSSFADE_S, MAX_LOOP_S, MIN_CLIP_S, find_seam
+from scene2hap.audio.loops.whole import without_silent_ends
 from scene2hap.audio.seam import Seam, apply_seam
 
 __all__ = [
@@ -23,4 +24,5 @@ __all__ = [
     "find_seam",
     "loop_pair",
     "middle_of",
+    "without_silent_ends",
 ]
