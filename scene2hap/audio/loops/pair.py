@@ -127,11 +127,11 @@ def _looped(clip: AudioClip, converter: TactileConverter, context: ConversionCon
         return loop, loop
     if clip.loop is not None:
         return _repeated(clip.part(*clip.loop), converter, context)
-    if _repeats_whole(clip):
-        clip = _without(clip, float(clip.samples[0]))
-        converted = convert_clip(clip, converter, context, from_rest=True)
+    from_zero = _without(clip, float(clip.samples[0]))
+    if _repeats_whole(from_zero):
+        converted = convert_clip(from_zero, converter, context, from_rest=True)
         if meets_itself(converted.samples):
-            return clip.samples, converted.samples
+            return from_zero.samples, converted.samples
     clip = _without(clip, float(clip.samples.mean(dtype=np.float64)))
     converted = convert_clip(clip, converter, context)
     seam = find_seam(clip.samples, clip.sample_rate_hz, converted.samples)

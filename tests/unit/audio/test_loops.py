@@ -479,11 +479,12 @@ def test_a_sound_between_silences_that_has_an_offset_begins_at_rest(kind: str) -
     assert felt[: RATE // 2].max() < 1e-3 * felt.max()
 
 
-def test_a_beat_between_silences_keeps_whole_periods() -> None:
-    t = np.arange(6 * RATE) / RATE
+@pytest.mark.parametrize("offset", [0.0, 0.8])
+def test_a_beat_between_silences_keeps_whole_periods(offset: float) -> None:
+    t = np.arange(round(6.4 * RATE)) / RATE
     rings = np.sin(2 * np.pi * 400.0 * t) * (t % 1.5 < 0.8) * (t < 5.6)
     rings[0] = 0.0
-    loop = loop_pair(clip(0.5 * rings), Lowpass(), ConversionContext())
+    loop = loop_pair(clip(0.1 * rings + offset), Lowpass(), ConversionContext())
     periods = len(loop.audible.samples) / RATE / 1.5
     assert periods == pytest.approx(round(periods), abs=0.03)
 
