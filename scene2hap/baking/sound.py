@@ -19,7 +19,7 @@ from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.felt_loop import Plan, SourceClip, felt_loop, plan_scene
 from scene2hap.audio.files import as_stored
 from scene2hap.audio.haptic_loop import HapticLoop
-from scene2hap.audio.loops import middle_of
+from scene2hap.audio.loops import middle_of, without_silent_ends
 from scene2hap.audio.protocol import follows_target
 from scene2hap.audio.recorded_runs import recorded_runs
 from scene2hap.audio.select import Choice, explain_choice
@@ -389,7 +389,8 @@ def _own(clip: AudioClip) -> tuple[AudioClip, Runs]:
     if clip.is_vibration:
         return _prepared(clip), NO_RUNS
     found = recorded_runs(clip.samples, clip.sample_rate_hz, clip.loop)
-    return _prepared(clip.part(found.first, found.end)), (found.start_up, found.wind_down)
+    steady = without_silent_ends(middle_of(clip.part(found.first, found.end)))
+    return as_stored(steady), (found.start_up, found.wind_down)
 
 
 def _prepared(clip: AudioClip) -> AudioClip:

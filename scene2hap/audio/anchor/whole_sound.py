@@ -12,7 +12,9 @@ without lines, the strongest bands of noise. If no component within 14 dB of the
   the strongest of all frequencies that are heard, if the best component in the range of touch is that much weaker.
 - Otherwise the component that comes nearest to the level keeps its frequency and is weaker than planned.
 
-A strongest line of 20 to 120 Hz that is not felt at its own frequency is kept as roughness, at its rate.
+A strongest line of 20 to 120 Hz that is not felt at its own frequency is kept as roughness, at its rate. Below a whine
+that is more than 14 dB stronger, a line below 60 Hz does not count: it is the mains in the recording, or a rumble, and
+would make a clear beep rough.
 
 If the pitch moves out of the band around the anchor, as that of an engine that revs, a band that holds the moving pitch
 is used (`moving_pitch`). The same rules apply to the middle of that band. It has no roughness: nothing sounds at the
@@ -138,6 +140,8 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
         return None
     low_hz = RANGE_HZ[0], min(RANGE_HZ[1], 0.45 * sample_rate_hz)
     low = strongest_component(magnitude, sample_rate_hz, low_hz)
+    if low is not None and low.hz < _SLOW_HZ and low.level_db < loudest.level_db + FAINTEST_DB:
+        low = strongest_component(magnitude, sample_rate_hz, (_SLOW_HZ, low_hz[1]))
     is_heard_low = low is not None and low.level_db >= loudest.level_db + FAINTEST_BELOW_WHINE_DB
     strongest = low if low is not None and is_heard_low else loudest
     needs = _Needs(heard(x[: fast_length(len(x))], sample_rate_hz), sample_rate_hz, level_db, actuator)

@@ -19,14 +19,15 @@ def convert_clip(
     """Convert a clip to its tactile counterpart: same length, rate and credit, not scaled.
 
     The beginning of the clip, mirrored in time and without its offset, is converted first, so that filters have settled
-    when the clip starts. With `from_rest`, silence is converted first.
+    when the clip starts. With `from_rest`, the clip begins at 0: silence is converted first, and nothing is subtracted.
     Raises: AudioError: the converter returns more or fewer samples than it was given.
     """
     n_before = min(round(PRE_ROLL_S * clip.sample_rate_hz), len(clip.samples) - 1)
     fed = np.concatenate([clip.samples[n_before:0:-1], clip.samples])
-    fed -= clip.samples.mean(dtype=np.float64).astype(np.float32)
     if from_rest:
         fed[:n_before] = 0.0
+    else:
+        fed -= clip.samples.mean(dtype=np.float64).astype(np.float32)
     stream = opened_stream(converter, clip.sample_rate_hz, context)
     felt = np.concatenate([one_channel(converter, stream.process(fed)), one_channel(converter, stream.finish())])
     require_in_step(converter, len(felt), len(fed))

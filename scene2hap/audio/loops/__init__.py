@@ -12,5 +12,6 @@ cycles. `seam` fades them at constant power. `pair` cuts the audible and the tac
 
 from scene2hap.audio.loops.pair import loop_pair, middle_of
 from scene2hap.audio.loops.seam_search import MIN_CLIP_S
+from scene2hap.audio.loops.whole import without_silent_ends
 
-__all__ = ["MIN_CLIP_S", "loop_pair", "middle_of"]
+__all__ = ["MIN_CLIP_S", "loop_pair", "middle_of", "without_silent_ends"]

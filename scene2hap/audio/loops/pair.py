@@ -78,12 +78,13 @@ def loop_pair(
 ) -> HapticLoop:
     """Make the audible and the tactile loop of a clip, cut at the same place.
 
-    The whole clip is converted before it is cut, so that a converter's transient lies outside the loop. The seam is
-    chosen for both signals; each has its own fade law. The audible loop peaks at `AUDIBLE_PEAK_DBFS`, the tactile one
-    at `context.intensity` times full scale less `TACTILE_HEADROOM_DB`. If the converter leaves only the recording's
-    noise (`levels.is_noise`), this noise is not amplified. A clip that is a vibration already is looped whole. It is
-    converted only if its frequency is to be moved. A sound between silences without a beat is looped whole, too. A loop
-    that a person marked is the audible loop as it is; its repetition is converted.
+    The whole clip is converted before it is cut, so that a converter's transient lies outside the loop. The offset of a
+    recording is removed. The seam is chosen for both signals; each has its own fade law. The audible loop peaks at
+    `AUDIBLE_PEAK_DBFS`, the tactile one at `context.intensity` times full scale less `TACTILE_HEADROOM_DB`. If the
+    converter leaves only the recording's noise (`levels.is_noise`), this noise is not amplified. A clip that is a
+    vibration already is looped whole. It is converted only if its frequency is to be moved. A sound between silences
+    without a beat is looped whole, too. A loop that a person marked is the audible loop as it is; its repetition is
+    converted.
 
     Parameters: finish : last step for the tactile loop, such as equalizing it for an actuator.
     Raises: AudioError: the clip is shorter than `MIN_CLIP_S`, or the clip or its conversion is silent.
@@ -95,7 +96,7 @@ def loop_pair(
             f"{clip.credit.title!r} lasts {clip.duration_s:.3g} s; it must last at least {MIN_CLIP_S:g} s. Use a "
             "longer sound."
         )
-    peak = float(np.abs(clip.samples).max(initial=0.0))
+    peak = float(np.abs(clip.samples - clip.samples.mean(dtype=np.float64)).max())
     if 0.0 < peak < 10 ** (FAINTEST_PEAK_DB / 20):
         raise AudioError(
             f"{clip.credit.title!r} peaks at {20 * np.log10(peak):.0f} dB re full scale; below {FAINTEST_PEAK_DB:g} dB "
@@ -126,13 +127,19 @@ def _looped(clip: AudioClip, converter: TactileConverter, context: ConversionCon
         return loop, loop
     if clip.loop is not None:
         return _repeated(clip.part(*clip.loop), converter, context)
-    if _repeats_whole(clip):
-        converted = convert_clip(clip, converter, context, from_rest=True)
+    from_zero = _without(clip, float(clip.samples[0]))
+    if _repeats_whole(from_zero):
+        converted = convert_clip(from_zero, converter, context, from_rest=True)
         if meets_itself(converted.samples):
-            return clip.samples, converted.samples
+            return from_zero.samples, converted.samples
+    clip = _without(clip, float(clip.samples.mean(dtype=np.float64)))
     converted = convert_clip(clip, converter, context)
     seam = find_seam(clip.samples, clip.sample_rate_hz, converted.samples)
     return apply_seam(clip.samples, seam), apply_seam(converted.samples, seam.fitted(converted.samples))
+
+
+def _without(clip: AudioClip, offset: float) -> AudioClip:
+    return replace(clip, samples=clip.samples - np.float32(offset))
 
 
 def _repeated(loop: AudioClip, converter: TactileConverter, context: ConversionContext) -> tuple[Samples, Samples]:

@@ -1,10 +1,13 @@
-"""Loops of whole clips: a hand-made clip, closed at the end of its last cycle, and a sound between silences."""
+"""Loops of whole clips: a hand-made clip, closed at the end of its last cycle, and a sound between silences; and the
+silence that is no part of a loop."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from scene2hap.audio.clip import Samples
+from scene2hap.audio.analysis import dynamic_range_db, sounding_span
+from scene2hap.audio.clip import AudioClip, Samples
+from scene2hap.audio.select import MIN_DURATION_S
 
 _LAST_CYCLE_S = 0.025
 """Stretch at the end in which the last cycle may end [s] (assumed: the loss of one cycle at 40 Hz is not felt)."""
@@ -13,6 +16,23 @@ _AT_REST = 1e-3
 """Share of the peak below which the end of a clip counts as at rest [-]."""
 _SILENCE_S = 0.2
 """Least silence at the end of a sound that repeats as a whole [s]: the length of the fade of a seam."""
+_PAUSES_DB = 10.0
+"""Dynamic range above which a sound has pauses [dB] (assumed: recorded hums, fans, engines and water have 1.5 to 7,
+bells, ticks and speech 14 and more)."""
+
+
+def without_silent_ends(clip: AudioClip) -> AudioClip:
+    """Return a clip without its silent ends if what is left lasts more than `MIN_DURATION_S` and has no pauses.
+
+    Otherwise the clip is returned: the silence is the pause of a knock, a beep or a rhythm. So is a clip with a loop
+    that a person marked.
+    """
+    rate = clip.sample_rate_hz
+    first, end = sounding_span(clip.samples, rate)
+    is_whole = end - first == len(clip.samples)
+    if is_whole or clip.loop is not None or end - first <= MIN_DURATION_S * rate:
+        return clip
+    return clip if dynamic_range_db(clip.samples[first:end], rate) > _PAUSES_DB else clip.part(first, end)
 
 
 def whole_loop(samples: Samples, sample_rate_hz: float) -> Samples:
@@ -37,10 +57,13 @@ def whole_loop(samples: Samples, sample_rate_hz: float) -> Samples:
 
 
 def is_between_silences(samples: Samples, sample_rate_hz: float) -> bool:
-    """Return True if a sound (n,) begins at rest and ends in silence, so that it repeats without a seam."""
-    limit = _AT_REST * float(np.abs(samples).max(initial=0.0))
-    tail = samples[len(samples) - round(_SILENCE_S * sample_rate_hz) :]
-    return len(tail) < len(samples) and abs(float(samples[0])) <= limit and float(np.abs(tail).max()) <= limit
+    """Return True if a sound (n,) ends in silence at the level of its first sample, so that it repeats without a seam.
+
+    A level other than 0 is an offset of the recording.
+    """
+    moved = np.abs(samples - samples[0])
+    n_tail = round(_SILENCE_S * sample_rate_hz)
+    return n_tail < len(moved) and float(moved[len(moved) - n_tail :].max()) <= _AT_REST * float(moved.max())
 
 
 def meets_itself(samples: Samples) -> bool:

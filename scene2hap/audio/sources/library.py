@@ -10,6 +10,7 @@ from pathlib import Path
 
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import SUFFIXES, read_clip
+from scene2hap.audio.select import MIN_DURATION_S
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES
 from scene2hap.audio.sources.word_stems import noun_phrase, says_nothing, stems
 from scene2hap.common import checks
@@ -44,6 +45,7 @@ class FolderLibrary:
     def find(self, description: VibrationDescription) -> list[AudioClip]:
         """Return up to five sounds whose words name the object, those with most words of the description first.
 
+        Sounds that name also what the object does come first, and alone if one of them is long enough to be chosen.
         A sound with the right verb but another object does not match: a boiling kettle is no boiling pan. Nor does one
         that shares only a word for anything: a sewing machine is no vending machine. Files that cannot be read are
         skipped with an `UnreadableSound` warning. Raises: ConfigError: see `FolderLibrary`.
@@ -53,15 +55,19 @@ class FolderLibrary:
         wanted = {*nouns, *stems(description.keywords)}
         head = set(nouns[-2:] if nouns and says_nothing(nouns[-1]) else nouns[-1:])
         matches = [(path, words, credit) for path, words, credit in self._entries() if head and head <= words]
-        matches.sort(key=lambda match: (-len(wanted & match[1]), match[0].as_posix()))
+        doing = wanted - set(nouns)
+        matches.sort(key=lambda match: (not doing & match[1], -len(wanted & match[1]), match[0].as_posix()))
         found: list[AudioClip] = []
-        for path, _, credit in matches:
-            if len(found) == MAX_CANDIDATES:
+        is_enough = False
+        for path, words, credit in matches:
+            if len(found) == MAX_CANDIDATES or (is_enough and not doing & words):
                 break
             try:
                 found.append(read_clip(path, replace(credit, query=description.keywords, origin="library")))
             except AudioError as cause:
                 warn_of(f"skipped: {cause}", UnreadableSound)
+            else:
+                is_enough |= bool(doing & words) and found[-1].duration_s > MIN_DURATION_S
         return found
 
     def _require_folder(self) -> None:

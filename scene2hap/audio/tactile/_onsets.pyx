@@ -50,7 +50,8 @@ def onsets_among(
 ):
     cdef Py_ssize_t k
     cdef const double[:, ::1] sound = steps[0], ticks = steps[1]
-    cdef double last = memory[0], before = memory[1], height_before = memory[2], lowest = memory[3], since, energy
+    cdef double last = memory[0], before = memory[1], height_before = memory[2], lowest = memory[3]
+    cdef double began = memory[4], sustained = memory[5], of_sustained, since, energy
     cdef Onset onset
     found, lowered = [], np.empty(n)
     cdef double[::1] shares = lowered
@@ -62,12 +63,19 @@ def onsets_among(
             highest(sound, k, spares_sustained, &onset)
             highest(ticks, k, spares_sustained, &onset)
             since = n_known + k - last
-            if onset.height > (0.0 if since >= APART else LOUDER * height_before) and not onset.is_sustained:
+            of_sustained = sustained if n_known + k - began >= APART else 0.0
+            if onset.is_sustained:
+                if sustained == 0.0:
+                    began = n_known + k
+                sustained = max(sustained, onset.height)
+            elif onset.height > LOUDER * (of_sustained if since >= APART else max(of_sustained, height_before)):
                 if since >= SPARED:
                     before = sound[1, k]
                 last, height_before, lowest = n_known + k, onset.height, INFINITY
                 found.append((k, onset.height, onset.left))
         energy, since = sound[0, k], n_known + k - last
+        if RISE * energy < sustained:
+            sustained = 0.0
         if since > LOOK:
             if spares_sustained and since >= APART and energy > RISE * lowest:
                 lowest = 0.0
@@ -77,6 +85,7 @@ def onsets_among(
             shares[k] = sqrt(before / energy)
             is_lowered = True
     memory[0], memory[1], memory[2], memory[3] = last, before, height_before, lowest
+    memory[4], memory[5] = began, sustained
     return found, lowered if is_lowered else None
 
 

@@ -91,14 +91,15 @@ def onsets_among(
 
     Parameters: steps : energy, slow mean and recent maximum of each step of sound and ticks (2, 3, m), where m exceeds
     n by the steps that measure an onset; n_known : number of earlier steps; memory : step of the last onset, energy of
-    the sound before it, energy of the onset, and the least energy since, 0 once the bed is spared no longer (4,),
-    updated by this function; spares_sustained : no burst for sustained onsets.
+    the sound before it, energy of the onset, the least energy since, 0 once the bed is spared no longer, and begin
+    [steps] and energy of the last sustained onset, 0 once the sound is 1 / `RISE` of it (6,), updated by this function;
+    spares_sustained : no burst for sustained onsets.
     Returns: onsets (step, energy, share of the energy after `LOOK` steps); amplitude of the bed's input (n,) [-], None
     if all are 1.
     """
     onsets, shares = [], np.ones(n)
     sound, ticks = steps
-    last, before, height_before, lowest = memory.tolist()
+    last, before, height_before, lowest, began, sustained = memory.tolist()
     rising = (sound[0] > RISE * sound[1]) | (ticks[0] > RISE * ticks[1])
     for k in range(n):
         number = n_known + k
@@ -106,19 +107,25 @@ def onsets_among(
         if rising[k] and number >= WARM:
             height, left, is_sustained = _highest(steps, k)
             since = number - last
-            least = 0.0 if since >= APART else LOUDER * height_before
-            if height > least and not (is_sustained and spares_sustained):
+            # A sustained sound may end before the mean has reached it. Its last steps are no onset.
+            of_sustained = sustained if number - began >= APART else 0.0
+            least = LOUDER * (of_sustained if since >= APART else max(of_sustained, height_before))
+            if is_sustained and spares_sustained:
+                began, sustained = began if sustained else number, max(sustained, height)
+            elif height > least:
                 # Between quick strokes the mean does not recover, so the energy before the first stroke is kept.
                 before = float(sound[1, k]) if since >= SPARED else before
                 last, height_before, lowest = number, height, np.inf
                 onsets.append((k, height, left))
         energy, since = float(sound[0, k]), number - last
+        if RISE * energy < sustained:
+            sustained = 0.0
         if since > LOOK:
             rises_again = spares_sustained and since >= APART and energy > RISE * lowest
             lowest = 0.0 if rises_again else min(lowest, max(energy, QUIETEST))
         if since < SPARED and lowest > 0.0 and energy > LOWERED * before:
             shares[k] = (before / energy) ** 0.5
-    memory[:] = last, before, height_before, lowest
+    memory[:] = last, before, height_before, lowest, began, sustained
     return onsets, shares if (shares < 1.0).any() else None
 
 
@@ -149,7 +156,7 @@ class OnsetDetector:
         self._shares = np.empty(0)  # of those of these steps that were searched for onsets
         self._found: deque[tuple[int, float, float]] = deque()  # onsets among them
         self._means = np.zeros((2, 2))
-        self._memory = np.array([-float(SPARED), 0.0, 0.0, np.inf])
+        self._memory = np.array([-float(SPARED), 0.0, 0.0, np.inf, 0.0, 0.0])
 
     @property
     def n_waiting(self) -> int:

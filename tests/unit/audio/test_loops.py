@@ -422,9 +422,10 @@ def test_haptic_loop_refuses_different_lengths_or_rates() -> None:
 
 
 @pytest.mark.parametrize(("peak_db", "is_noise"), [(-80.0, True), (-61.0, True), (-59.0, False), (-20.0, False)])
-def test_noise_floor_of_a_recording_is_refused_as_a_loop(peak_db: float, is_noise: bool) -> None:
+@pytest.mark.parametrize("offset", [0.0, 0.1])
+def test_noise_floor_of_a_recording_is_refused_as_a_loop(peak_db: float, is_noise: bool, offset: float) -> None:
     x = np.random.default_rng(0).standard_normal(3 * 8000)
-    clip = AudioClip((x / np.abs(x).max() * 10 ** (peak_db / 20)).astype(np.float32), 8000)
+    clip = AudioClip((offset + x / np.abs(x).max() * 10 ** (peak_db / 20)).astype(np.float32), 8000)
     if is_noise:
         with pytest.raises(AudioError, match=f"{peak_db:.0f} dB re full scale"):
             loop_pair(clip, SvfBandpass(), ConversionContext())
@@ -432,13 +433,14 @@ def test_noise_floor_of_a_recording_is_refused_as_a_loop(peak_db: float, is_nois
         assert loop_pair(clip, SvfBandpass(), ConversionContext()).tactile.samples.any()
 
 
+@pytest.mark.parametrize("offset", [0.0, 0.1])
 @pytest.mark.parametrize("kind", ["auto", "lowpass"])
-def test_a_sound_between_silences_is_looped_whole(kind: str) -> None:
+def test_a_sound_between_silences_is_looped_whole(kind: str, offset: float) -> None:
     """In an earlier version the fade of the seam took 13 dB from a knock at the beginning of its recording."""
     t = np.arange(2 * RATE) / RATE
     x = np.zeros(2 * RATE)
     x[1:] = 0.5 * (np.exp(-t / 0.03) * np.sin(2 * np.pi * 200.0 * t))[:-1] * (t[:-1] < 0.3)
-    sound, converter = clip(x), CONVERTERS.build(kind)
+    sound, converter = clip(x + offset), CONVERTERS.build(kind)
     (plan,) = plan_scene([SourceClip(sound, 0.3)], converter, actuator_profile("flat"))
     loop = felt_loop(sound, converter, plan)
     np.testing.assert_allclose(loop.audible.samples, x * loop.audible.samples.max() / x.max(), atol=1e-6)
@@ -448,11 +450,36 @@ def test_a_sound_between_silences_is_looped_whole(kind: str) -> None:
     assert np.abs(felt[-RATE:]).max() < 1e-2 * np.abs(felt).max()
 
 
-def test_a_beat_between_silences_keeps_whole_periods() -> None:
-    t = np.arange(6 * RATE) / RATE
+def test_the_offset_of_a_recording_is_in_neither_loop() -> None:
+    """A game that starts a loop with an offset clicks, and the offset takes head-room."""
+    x = 0.3 * tone(150.0) + 0.01 * noise()
+    loop, plain = (loop_pair(clip(x + offset), SvfBandpass(), ConversionContext()) for offset in (0.2, 0.0))
+    for one, other in ((loop.audible, plain.audible), (loop.tactile, plain.tactile)):
+        assert abs(one.samples.mean(dtype=float)) < 1e-3
+        np.testing.assert_allclose(one.samples, other.samples, atol=1e-4)
+
+
+@pytest.mark.parametrize("kind", ["auto", "adaptive", "lowpass"])
+def test_a_sound_between_silences_that_has_an_offset_begins_at_rest(kind: str) -> None:
+    """In an earlier version the mean was subtracted from the silence before the sound, too: a step at each wrap."""
+    t = np.arange(3 * RATE) / RATE
+    offset = np.clip((np.minimum(t, 2.5 - t) - 0.7) / 0.3, 0.0, 1.0)
+    x = 0.25 * offset + 0.4 * np.exp(-np.maximum(t - 1.2, 0.0) / 0.05) * np.sin(2 * np.pi * 200.0 * t) * (t >= 1.2)
+    x[t > 2.0] = 0.0
+    sound, converter = clip(x), CONVERTERS.build(kind)
+    (plan,) = plan_scene([SourceClip(sound, 0.3)], converter, actuator_profile("flat"))
+    loop = felt_loop(sound, converter, plan)
+    assert len(loop.tactile.samples) == len(x)
+    felt = np.abs(loop.tactile.samples.astype(float))
+    assert felt[: RATE // 2].max() < 1e-3 * felt.max()
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.8])
+def test_a_beat_between_silences_keeps_whole_periods(offset: float) -> None:
+    t = np.arange(round(6.4 * RATE)) / RATE
     rings = np.sin(2 * np.pi * 400.0 * t) * (t % 1.5 < 0.8) * (t < 5.6)
     rings[0] = 0.0
-    loop = loop_pair(clip(0.5 * rings), Lowpass(), ConversionContext())
+    loop = loop_pair(clip(0.1 * rings + offset), Lowpass(), ConversionContext())
     periods = len(loop.audible.samples) / RATE / 1.5
     assert periods == pytest.approx(round(periods), abs=0.03)
 

@@ -113,6 +113,10 @@ def test_tone_too_low_to_be_felt_is_rendered_as_roughness(
         ({"f50": 0.5, "f180": 0.2}, "lra", 180.0, None, 50.0),
         ({"f3000": 0.5}, "flat", 3000.0, 250.0, None),
         ({"f3000": 0.5, "f120": 0.1}, "flat", 120.0, None, None),  # a hum under a whine
+        ({"f2000": 0.5, "f50": 0.02}, "flat", 2000.0, 250.0, None),  # the mains in the recording of a whine
+        ({"f2000": 0.5, "f50": 0.02}, "lra", 2000.0, 175.0, None),
+        ({"f2000": 0.5, "f50": 0.03, "f180": 0.02}, "flat", 180.0, None, None),
+        ({"f2000": 0.5, "f50": 0.2}, "flat", 50.0, 250.0, 50.0),
     ],
 )
 def test_tone_that_cannot_be_felt_is_moved_to_the_best_frequency_of_the_actuator(

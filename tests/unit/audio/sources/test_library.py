@@ -21,11 +21,11 @@ def describe(category: str, keywords: str) -> VibrationDescription:
     return VibrationDescription(category, "on", f"{category} runs", keywords, 0.5, (0.6, 0.6, 0.02))
 
 
-def fill(folder: Path, *names: str) -> Path:
+def fill(folder: Path, *names: str, duration_s: float = 0.0125) -> Path:
     for name in names:
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(encoded(0.1 * np.ones(100), 8000))
+        path.write_bytes(encoded(0.1 * np.ones(round(duration_s * 8000)), 8000))
     return folder
 
 
@@ -36,6 +36,23 @@ def titles(folder: Path, category: str, keywords: str) -> list[str]:
 def test_library_orders_files_by_shared_words(tmp_path: Path) -> None:
     fill(tmp_path, "fan_1.wav", "computer-fan-hum.wav", "sub/Computer_Fans.WAV", "fridge_hum.wav", "notes.txt.wav")
     assert titles(tmp_path, "computer fan", "computer fan humming") == ["computer-fan-hum", "Computer_Fans", "fan_1"]
+
+
+def test_sounds_of_what_the_object_does_come_alone(tmp_path: Path) -> None:
+    """In an earlier version the states of a car had one sound, and a clock that ticks rang, since ringing is tonal."""
+    clocks, cars = ("alarm clock ringing.wav", "wall clock ticking.wav"), ("car idle.wav", "car drives.wav")
+    fill(tmp_path, *clocks, *cars, duration_s=3.0)
+    assert titles(tmp_path, "clock", "clock ticking") == ["wall clock ticking"]
+    assert titles(tmp_path, "alarm clock", "alarm clock ticking") == ["wall clock ticking"]
+    assert titles(tmp_path, "alarm clock", "alarm clock ringing") == ["alarm clock ringing"]
+    assert titles(tmp_path, "car", "car idling") == ["car idle"]
+    assert titles(tmp_path, "car", "car driving") == ["car drives"]
+    assert titles(tmp_path, "car", "car shaking") == ["car drives", "car idle"]
+
+
+def test_a_short_sound_of_what_the_object_does_does_not_come_alone(tmp_path: Path) -> None:
+    fill(fill(tmp_path, "horn sounding.wav"), "horn.wav", "horn of a car.wav", duration_s=3.0)
+    assert titles(tmp_path, "horn", "horn sounding") == ["horn sounding", "horn of a car", "horn"]
 
 
 def test_library_takes_only_files_of_sound(tmp_path: Path) -> None:

@@ -132,6 +132,16 @@ def test_sound_that_continues_after_its_onset_keeps_its_envelope() -> None:
     assert np.corrcoef(*levels)[0, 1] > 0.95
 
 
+@pytest.mark.parametrize("tone_hz", [250.0, 440.0, 1900.0])
+@pytest.mark.parametrize("lasts_s", [0.05, 0.07, 0.1, 0.13])
+def test_the_end_of_a_beep_is_no_onset(tone_hz: float, lasts_s: float) -> None:
+    """The slow mean needs some 150 ms to reach a sound that begins in digital silence."""
+    t = np.arange(5 * RATE) / RATE
+    within = t % 1.0
+    beeps = 0.4 * np.sin(2 * np.pi * tone_hz * t) * np.clip(np.minimum(within, lasts_s - within) / 0.003, 0.0, 1.0)
+    assert not bursts(beeps, bed_follows=True).any()
+
+
 def auto(sound: Signal, rate: int, own_hz: float, band_db: float) -> Signal:
     stream = CONVERTERS.build("auto").stream(rate, ConversionContext(own_hz=own_hz, band_db=band_db))
     return np.concatenate([stream.process(sound.astype(np.float32)), stream.finish()]).astype(float)
