@@ -28,8 +28,9 @@ _STRETCH = 4096
 MOST_SUM = 0.95
 """Level up to which bursts fill an output, and from which sums are limited [-]."""
 HEARD_S = 0.025
-"""Time before a burst in which the level of an output is looked for, and after which other bursts are past their peaks
-[s]: half a period of 20 Hz."""
+"""Time in which the level of an output is looked for before a burst [s]: half a period of 20 Hz."""
+_AHEAD = 3
+"""Times this time in which the peaks of bursts are looked for: sums of many waves beat."""
 _NONE: Samples = np.empty(0, dtype=np.float32)
 _FIRST_S, _FIRST_CYCLE_S = 0.06, 0.04
 """Time in which the peak of a sum is searched first, and end of the longest first cycle of a wave (30 Hz, with its
@@ -121,12 +122,12 @@ class PlannedBurst:
         """Return the same burst from a later frame on."""
         return PlannedBurst(begin, self._waves, self._weights)
 
-    def fit(self, rooms: Mapping[int, float]) -> None:
-        """Make the burst weaker at each output that it would fill beyond its room [-]."""
+    def fit(self, rooms: Mapping[int, float], n_ahead: int) -> None:
+        """Make the burst weaker at each output that its first frames would fill beyond its room [-]."""
         self.is_fitted = True
         weights = dict(self._weights)
         for token in weights.keys() & rooms.keys():
-            stretch = summed([wave[:_STRETCH] for wave in self._waves], weights[token])
+            stretch = summed([wave[: max(n_ahead, _STRETCH)] for wave in self._waves], weights[token])
             peak = float(np.abs(stretch).max(initial=0.0))
             if peak > rooms[token]:
                 share = rooms[token] / peak
@@ -151,14 +152,14 @@ class Bursts:
     """All bursts that wait or play.
 
     Where an output is so loud that the sum would be limited, which clicks, a burst begins weaker.
-    Parameters: n_heard : frames before a burst in which the level of the mix is looked for, and after its beginning
-        in which that of other bursts is; 0 leaves bursts as they are.
+    Parameters: n_heard : frames in which the level of the mix is looked for before a burst; 0 leaves bursts as they
+        are.
     """
 
     def __init__(self, n_heard: int = 0) -> None:
         self._incoming: deque[PlannedBurst | Fade] = deque()
         self._playing: list[PlannedBurst] = []
-        self._n_heard = n_heard
+        self._n_heard, self._n_ahead = n_heard, _AHEAD * n_heard
         # The last frames of the mix without bursts (n_heard, n_outputs), and the tokens of the columns.
         self._heard: Samples = np.zeros((n_heard, 0), dtype=np.float32)
         self._outputs: tuple[int, ...] = ()
@@ -204,7 +205,7 @@ class Bursts:
             return {}
         self._arrange(outputs)
         before = np.concatenate([self._heard[first:], mix[max(0, first - n) : first]])
-        levels = np.abs(before).max(axis=0) + np.abs(others[first : first + n]).max(axis=0)
+        levels = np.abs(before).max(axis=0) + np.abs(others[first : first + self._n_ahead]).max(axis=0)
         return dict(zip(outputs, np.maximum(MOST_SUM - levels, 0.0).tolist(), strict=True))
 
     def add_to(self, mix: Samples, position: int, outputs: Sequence[int]) -> None:
@@ -219,14 +220,14 @@ class Bursts:
         n_frames, end = len(mix), position + len(mix)
         starts = any(not burst.is_fitted and burst.begin < end for burst in self._playing)
         # A burst that begins is fitted to how the others go on after this mix.
-        n_summed = n_frames + self._n_heard if starts else n_frames
+        n_summed = n_frames + self._n_ahead if starts else n_frames
         total = np.zeros((n_summed, len(outputs)), dtype=np.float32)
         for burst in self._playing:
             first = max(0, burst.begin - position)
             if first >= n_frames:
                 continue
             if not burst.is_fitted:
-                burst.fit(self._rooms(mix, total, first, outputs))
+                burst.fit(self._rooms(mix, total, first, outputs), self._n_ahead)
             for channel, token in enumerate(outputs):
                 begin = position + first - burst.begin
                 part = burst.samples(token, begin, begin + n_summed - first)
