@@ -136,6 +136,17 @@ def test_bursts_that_begin_together_are_not_limited(apart: int) -> None:
     assert 0.75 < np.abs(loud).max() < MOST_SUM + 1e-6
 
 
+@pytest.mark.parametrize("later", range(0, 458, 57))  # in a period of 105 Hz
+def test_a_burst_that_rises_late_leaves_less_room_for_another(later: int) -> None:
+    """Two sines that cancel at first are loudest after 50 ms."""
+    bursts, mix = Bursts(1200), np.zeros((9600, 1), np.float32)
+    bursts.start(PlannedBurst(0, [wave_of(100.0, 0.3, RATE), wave_of(110.0, 0.3, RATE)], {0: [0.5, -0.5]}))
+    bursts.start(PlannedBurst(later, [wave_of(105.0, 0.3, RATE)], {0: [0.9]}))
+    for begin in range(0, len(mix), 64):
+        bursts.add_to(mix[begin : begin + 64], begin, (0,))
+    assert np.abs(mix).max() < MOST_SUM + 1e-6
+
+
 @pytest.mark.parametrize("block", [1, 64, 4800, 48_000])
 def test_the_room_of_bursts_does_not_depend_on_block_size(block: int) -> None:
     expected, found = (played(0.6, 1200, n_bursts=3, apart=300, block=size) for size in (256, block))
