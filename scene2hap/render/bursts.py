@@ -19,7 +19,8 @@ Samples = NDArray[np.float32]
 
 ATTACK_S = 0.006
 """Length of a sine's attack [s], x - sin(2 pi x) / (2 pi). It rises from 10 to 90 % as fast as half a cosine of 5 ms,
-and has 15 dB less energy above 1 kHz: that of a step of at most -65 dB of full scale. Assumed: too short to be felt."""
+and has at least 12 dB less energy above 1 kHz. Above 1.15 kHz the strongest impact has that of a step of at most -63 dB
+of full scale. Assumed: too short to be felt."""
 END_DB = -46.0
 """A wave ends at this level [dB], over such an attack reversed; full scale is 45 dB over the threshold."""
 _STEP = 256
