@@ -19,7 +19,7 @@ import argparse
 import math
 import sys
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
@@ -38,7 +38,7 @@ G, TOP_M, RATES_HZ = 9.81, 0.7, (30, 60, 72, 90, 120)
 ROUND_M, HALF_M = 0.04, 0.06
 """Radius of can and ball, and half the height of box and can [m]."""
 LATE_FRAMES, LEAST_FRAMES, LEAST_FALL_M, REACH_M = 3, 3, 0.008, 0.02
-Frames = Iterator[tuple[float, Pose]]
+Frames = list[tuple[float, Pose]]
 
 
 class Landed(NamedTuple):
@@ -88,7 +88,7 @@ THINGS: dict[str, tuple[Geometry, float]] = {
 """Geometry, and the height of its middle over the table [m]."""
 
 
-def impacts_of(name: str, frames: list[tuple[float, Pose]]) -> list[float]:
+def impacts_of(name: str, frames: Frames) -> list[float]:
     """Times of the frames whose update counts an impact [s]; one for each impact."""
     table = box("table", (1.6, TOP_M, 1.2), (0.0, TOP_M / 2, 0.0))
     scene = snapshot_of(table, thing("thing", THINGS[name][0], frames[0][1]))
@@ -127,27 +127,25 @@ def walk(times: list[float], rng: np.random.Generator) -> np.ndarray:
     return steps
 
 
-def jitter(n: int, rng: np.random.Generator) -> np.ndarray:
-    return rng.uniform(-1e-3, 1e-3, (n, 3))
-
-
-def quiet(kind: str, name: str, hz: int, rng: np.random.Generator) -> Frames:
-    """A motion without a landing. kind : "rests", "jitters", "slides" or "rolls"."""
+def quiet(kind: str, name: str, hz: int, rng: np.random.Generator) -> tuple[list[Landed], Frames]:
+    """No landing, and the frames of a motion. kind : "rests", "jitters", "slides" or "rolls"."""
     times = frame_times(hz, 2.0, rng, late=0.1)
     rests_m, n = TOP_M + THINGS[name][1], len(times)
     turn = Rotation.from_rotvec([0.0, rng.uniform(0, 2 * math.pi), 0.0])
     ways = walk(times, rng) if kind in ("slides", "rolls") else np.zeros((n, 2))
-    shakes = jitter(n, rng) if kind == "jitters" or (kind != "rolls" and rng.random() < 0.5) else np.zeros((n, 3))
+    is_shaken = kind == "jitters" or (kind != "rolls" and rng.random() < 0.5)
+    shakes = rng.uniform(-1e-3, 1e-3, (n, 3)) if is_shaken else np.zeros((n, 3))
     if kind == "rolls":
         rests_m = TOP_M + ROUND_M
         if name == "can":  # lies along z, and rolls along x
             turn, ways[:, 1] = Rotation.from_rotvec([math.pi / 2, 0.0, 0.0]), 0.0
-    before = ways[0]
+    before, frames = ways[0], []
     for time_s, (x, z), (dx, dy, dz) in zip(times, ways.tolist(), shakes.tolist(), strict=True):
         if kind == "rolls":
             turn = Rotation.from_rotvec([(z - before[1]) / ROUND_M, 0.0, -(x - before[0]) / ROUND_M]) * turn
             before = (x, z)
-        yield time_s, turned(x + dx, rests_m + dy, z + dz, turn)
+        frames.append((time_s, turned(x + dx, rests_m + dy, z + dz, turn)))
+    return [], frames
 
 
 def bounces(height_m: float, restitution: float, begins_s: float) -> list[Landed]:
@@ -170,7 +168,7 @@ def height_at(time_s: float, landings: list[Landed], restitution: float) -> floa
     return max(0.0, up * t - G / 2 * t * t) if last is not landings[-1] else 0.0
 
 
-def fall(name: str, hz: int, rng: np.random.Generator) -> tuple[list[Landed], list[tuple[float, Pose]]]:
+def fall(_: str, name: str, hz: int, rng: np.random.Generator) -> tuple[list[Landed], Frames]:
     """Landings of a dropped thing, and its frames."""
     restitution = float(rng.choice([0.0, rng.uniform(0.0, 0.8)]))
     landings = bounces(float(np.exp(rng.uniform(math.log(0.02), math.log(0.8)))), restitution, rng.uniform(0.1, 0.5))
@@ -187,26 +185,22 @@ def fall(name: str, hz: int, rng: np.random.Generator) -> tuple[list[Landed], li
 
 QUIET = [("rests", name) for name in THINGS] + [("jitters", name) for name in THINGS]
 QUIET += [("slides", name) for name in THINGS] + [("rolls", "can"), ("rolls", "ball")]
+FALLS = [("falls", name) for name in THINGS]
 
 
-def draws(
-    n: int,
-    seed: int,
-    kinds: list[tuple[str, str]],
-    motion: Callable[..., tuple[list[Landed], list[tuple[float, Pose]]]],
+def faults_of(
+    n: int, seed: int, kinds: list[tuple[str, str]], motion: Callable[..., tuple[list[Landed], Frames]]
 ) -> list[str]:
-    """Judge motions of each kind in turn, print a row for each kind, and return the faults."""
+    """Faults of motions of each kind in turn. Prints a row for each kind."""
     rows = {kind: np.zeros(5, int) for kind in kinds[:n]}
     faults = []
     for i in range(n):
-        kind = kinds[i % len(kinds)]
-        rng = np.random.default_rng((seed, i))
+        kind, rng = kinds[i % len(kinds)], np.random.default_rng((seed, i))
         hz = int(rng.choice(RATES_HZ))
         landings, frames = motion(*kind, hz, rng)
         found_s = impacts_of(kind[1], frames)
         wrong = judged(landings, found_s, hz)
-        n_due = sum(is_due(one, hz) for one in landings)
-        rows[kind] += [1, len(landings), n_due, len(found_s), bool(wrong)]
+        rows[kind] += [1, len(landings), sum(is_due(one, hz) for one in landings), len(found_s), bool(wrong)]
         faults += [f"{' '.join(kind)} {i} at {hz} Hz: {one}" for one in wrong]
     for (does, name), cells in rows.items():
         print(f"| {name} {does} | " + " | ".join(map(str, cells)) + " |", flush=True)
@@ -221,11 +215,8 @@ def main() -> int:
     parser.add_argument("--falls", type=int, default=400, help="falls (400)")
     given = parser.parse_args()
     warnings.simplefilter("ignore")
-    print(
-        f"seed {given.seed}\n\n| motion | drawn | landings | to be found | impacts | wrong |\n|---|---|---|---|---|---|"
-    )
-    faults = draws(given.quiet, given.seed, QUIET, lambda *it: ([], [*quiet(*it)]))
-    faults += draws(given.falls, given.seed, [("falls", name) for name in THINGS], lambda _, *it: fall(*it))
+    print(f"seed {given.seed}\n\n| motion | drawn | landings | to be found | impacts | wrong |\n" + "|---" * 6 + "|")
+    faults = faults_of(given.quiet, given.seed, QUIET, quiet) + faults_of(given.falls, given.seed, FALLS, fall)
     print("\n" + "\n".join(f"* {one}" for one in faults) if faults else "\nno motion is wrong")
     return int(bool(faults))
 

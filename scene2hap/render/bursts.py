@@ -19,7 +19,8 @@ Samples = NDArray[np.float32]
 
 ATTACK_S = 0.006
 """Length of a sine's attack [s], x - sin(2 pi x) / (2 pi). It rises from 10 to 90 % as fast as half a cosine of 5 ms,
-and has 15 dB less energy above 1 kHz: that of a step of at most -65 dB of full scale. Assumed: too short to be felt."""
+and has at least 12 dB less energy above 1 kHz. Above 1.15 kHz the strongest impact has that of a step of at most -63 dB
+of full scale. Assumed: too short to be felt."""
 END_DB = -46.0
 """A wave ends at this level [dB], over such an attack reversed; full scale is 45 dB over the threshold."""
 _STEP = 256
@@ -29,6 +30,8 @@ MOST_SUM = 0.95
 """Level up to which bursts fill an output, and from which sums are limited [-]."""
 HEARD_S = 0.025
 """Time in which the level of an output is looked for before a burst [s]: half a period of 20 Hz."""
+_AHEAD = 3
+"""Times this time in which the peaks of bursts are looked for: sums of many waves beat."""
 _NONE: Samples = np.empty(0, dtype=np.float32)
 _FIRST_S, _FIRST_CYCLE_S = 0.06, 0.04
 """Time in which the peak of a sum is searched first, and end of the longest first cycle of a wave (30 Hz, with its
@@ -120,12 +123,12 @@ class PlannedBurst:
         """Return the same burst from a later frame on."""
         return PlannedBurst(begin, self._waves, self._weights)
 
-    def fit(self, rooms: Mapping[int, float]) -> None:
-        """Make the burst weaker at each output that it would fill beyond its room [-]."""
+    def fit(self, rooms: Mapping[int, float], n_ahead: int) -> None:
+        """Make the burst weaker at each output that its first frames would fill beyond its room [-]."""
         self.is_fitted = True
         weights = dict(self._weights)
         for token in weights.keys() & rooms.keys():
-            stretch = summed([wave[:_STRETCH] for wave in self._waves], weights[token])
+            stretch = summed([wave[: max(n_ahead, _STRETCH)] for wave in self._waves], weights[token])
             peak = float(np.abs(stretch).max(initial=0.0))
             if peak > rooms[token]:
                 share = rooms[token] / peak
@@ -150,14 +153,17 @@ class Bursts:
     """All bursts that wait or play.
 
     Where an output is so loud that the sum would be limited, which clicks, a burst begins weaker.
-    Parameters: n_heard : frames that are kept of each mix, to know how loud it is; 0 leaves bursts as they are.
+    Parameters: n_heard : frames in which the level of the mix is looked for before a burst; 0 leaves bursts as they
+        are.
     """
 
     def __init__(self, n_heard: int = 0) -> None:
         self._incoming: deque[PlannedBurst | Fade] = deque()
         self._playing: list[PlannedBurst] = []
-        self._n_wanted, self._n_heard = n_heard, 0
-        self._heard: deque[Samples] = deque()
+        self._n_heard, self._n_ahead = n_heard, _AHEAD * n_heard
+        # The last frames of the mix without bursts (n_heard, n_outputs), and the tokens of the columns.
+        self._heard: Samples = np.zeros((n_heard, 0), dtype=np.float32)
+        self._outputs: tuple[int, ...] = ()
 
     @property
     def are_silent(self) -> bool:
@@ -177,21 +183,30 @@ class Bursts:
         """Fade out the bursts that were started before, and remove them."""
         self._incoming.append(fade)
 
-    def hear(self, mix: Samples) -> None:
-        """Keep what is played (n_frames, n_outputs), for later bursts."""
-        if not len(mix) or not self._n_wanted:
-            return
-        self._heard.append(mix)
-        self._n_heard += len(mix)
-        while self._n_heard - len(self._heard[0]) >= self._n_wanted:
-            self._n_heard -= len(self._heard.popleft())
+    def hear(self, mix: Samples, outputs: Sequence[int]) -> None:
+        """Remember the end of a mix without bursts (n_frames, n_outputs), after `add_to`, for later bursts."""
+        if self._n_heard:
+            self._arrange(outputs)
+            self._heard = np.concatenate([self._heard[len(mix) :], mix[-self._n_heard :]])
 
-    def _rooms(self, mix: Samples, outputs: Sequence[int]) -> dict[int, float]:
-        """Return the room for a burst at each output [-]."""
-        if not self._n_wanted:
+    def _arrange(self, outputs: Sequence[int]) -> None:
+        """Give the remembered frames the columns of these outputs; those of a new one are silent."""
+        if self._outputs == (now := tuple(outputs)):
+            return
+        before, self._heard = self._heard, np.zeros((self._n_heard, len(now)), dtype=np.float32)
+        for column, token in enumerate(now):
+            if token in self._outputs:
+                self._heard[:, column] = before[:, self._outputs.index(token)]
+        self._outputs = now
+
+    def _rooms(self, mix: Samples, others: Samples, first: int, outputs: Sequence[int]) -> dict[int, float]:
+        """Return the room [-] at each output for a burst that begins at a frame of a mix, beside other bursts."""
+        n = self._n_heard
+        if not n:
             return {}
-        blocks = (block for block in (*self._heard, mix) if block.shape[1] == len(outputs))
-        levels = np.max([np.abs(block).max(axis=0, initial=0.0) for block in blocks], axis=0)
+        self._arrange(outputs)
+        before = np.concatenate([self._heard[first:], mix[max(0, first - n) : first]])
+        levels = np.abs(before).max(axis=0) + np.abs(others[first : first + self._n_ahead]).max(axis=0)
         return dict(zip(outputs, np.maximum(MOST_SUM - levels, 0.0).tolist(), strict=True))
 
     def add_to(self, mix: Samples, position: int, outputs: Sequence[int]) -> None:
@@ -204,14 +219,21 @@ class Bursts:
             for burst in self._playing:
                 burst.fade = burst.fade or one
         n_frames, end = len(mix), position + len(mix)
+        starts = any(not burst.is_fitted and burst.begin < end for burst in self._playing)
+        # A burst that begins is fitted to how the others go on after this mix.
+        n_summed = n_frames + self._n_ahead if starts else n_frames
+        total = np.zeros((n_summed, len(outputs)), dtype=np.float32)
         for burst in self._playing:
-            if not burst.is_fitted and burst.begin < end:
-                burst.fit(self._rooms(mix, outputs))
             first = max(0, burst.begin - position)
+            if first >= n_frames:
+                continue
+            if not burst.is_fitted:
+                burst.fit(self._rooms(mix, total, first, outputs), self._n_ahead)
             for channel, token in enumerate(outputs):
                 begin = position + first - burst.begin
-                part = burst.samples(token, begin, begin + n_frames - first) if first < n_frames else None
+                part = burst.samples(token, begin, begin + n_summed - first)
                 if part is not None:
                     share = 1.0 if burst.fade is None else burst.fade.shares(position + first, len(part))
-                    mix[first : first + len(part), channel] += part * share
+                    total[first : first + len(part), channel] += part * share
+        mix += total[:n_frames]
         self._playing = [burst for burst in self._playing if burst.end > end]

@@ -5,7 +5,7 @@
 Assumed, with x the share of the time: a motor starts up with the speed s = x (2 - x), and coasts down with s = (1 -
 x)^2. Its amplitude is a = s^2, the force of an unbalance. A source that does not spin keeps its pitch, and its
 amplitude follows half a cosine. Recorded: a is the recorded amplitude. If the recording shows a speed, s is that speed;
-else s = sqrt(a) for a source that spins. The first 10 ms of a stop fade from steady running to these courses.
+else s = sqrt(a) for a source that spins. A stop fades over its first 10 ms from how the source ran to this course.
 
 A transition begins or ends in phase with the loop itself, so the change between them is seamless. After its end it is
 the loop, or silence, for as long as nothing replaces it: a game may not update for a while. A transition that begins

@@ -123,8 +123,9 @@ class SoundReader:
     def _first_offsets(self) -> NDArray[np.float64]:
         """Return the offset of each channel at the beginning of the file.
 
-        The mean of its first milliseconds counts where it differs from that of the first second by more than the
-        samples vary: the recording was faded in together with its offset.
+        The mean of the first 50 ms counts where it is nearer to 0 than that of the first second, by more than the
+        samples vary: the recording was faded in together with its offset. A boom, which begins with half a slow wave,
+        is farther from 0.
         """
         head = next(self._parts(_OFFSET_FRAMES), None)
         if head is None or not np.isfinite(head).all():  # the conversion raises an error for this
@@ -132,7 +133,7 @@ class SoundReader:
         channels = self._mixed(head)
         beginning = channels[: round(_BEGINNING_S * self.rate)]
         offsets, own = (x.mean(axis=0, dtype=np.float64) for x in (channels, beginning))
-        is_faded = np.abs(own - offsets) > beginning.std(axis=0, dtype=np.float64)
+        is_faded = np.abs(offsets) - np.abs(own) > beginning.std(axis=0, dtype=np.float64)
         first: NDArray[np.float64] = np.where(is_faded, own, offsets)
         return first
 

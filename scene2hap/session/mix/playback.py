@@ -338,12 +338,12 @@ class Playback:
         return np.concatenate([self._render(plan, n_left), silence])
 
     def _render(self, plan: MixingPlan, n_frames: int) -> Block:
-        mix = plan.render(self._position, n_frames)
+        mix = loops = plan.render(self._position, n_frames)
         if not self._bursts.are_silent:
-            total = mix.copy()
+            total = loops.copy()
             self._bursts.add_to(total, self._position, plan.hands)
-            mix = soft_limit_sum(mix, total, MOST_SUM)
-        self._bursts.hear(mix)
+            mix = soft_limit_sum(loops, total, MOST_SUM)
+        self._bursts.hear(loops, plan.hands)
         self._position += n_frames
         return mix
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import weakref
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -101,16 +101,21 @@ def test_late_burst_starts_with_the_next_frame() -> None:
     np.testing.assert_array_equal(mix[:, 0], wave[:64])
 
 
-def played(level: float, n_heard: int, *, begin_at: int = 20_000) -> Samples:
-    """A tone at one of two outputs (48000, 2), and in its midst a strong burst at both."""
+def played(
+    level: float, n_heard: int, *, begin_at: int = 20_000, n_bursts: int = 1, apart: int = 0, block: int = 256
+) -> Samples:
+    """A tone at one of two outputs (48000, 2), and in its midst strong bursts at both."""
     tone = (level * np.sin(2 * np.pi * 90.0 * np.arange(48_000) / 48_000)).astype(np.float32)
     mixed, bursts = np.stack([tone, np.zeros_like(tone)], axis=1), Bursts(n_heard)
-    bursts.start(PlannedBurst(begin_at, [wave_of(130.0, 0.08, 48_000)], {0: [0.5], 1: [0.5]}))
-    for begin in range(0, len(mixed), 256):
-        mix = mixed[begin : begin + 256].copy()
-        bursts.add_to(mixed[begin : begin + 256], begin, (0, 1))
-        mixed[begin : begin + 256] = soft_limit_sum(mix, mixed[begin : begin + 256], MOST_SUM)
-        bursts.hear(mixed[begin : begin + 256])
+    for i in range(n_bursts):
+        wave = wave_of(130.0 + 20 * i, 0.08, 48_000)
+        bursts.start(PlannedBurst(begin_at + i * apart, [wave], {0: [0.5], 1: [0.5]}))
+    for begin in range(0, len(mixed), block):
+        mix = mixed[begin : begin + block].copy()
+        bursts.add_to(mixed[begin : begin + block], begin, (0, 1))
+        mixed[begin : begin + block] = soft_limit_sum(mix, mixed[begin : begin + block], MOST_SUM)
+        bursts.hear(mix, (0, 1))
+        mix[:] = 1.0  # the caller's own
     return mixed
 
 
@@ -123,17 +128,56 @@ def test_a_burst_on_a_loud_mix_is_not_limited() -> None:
         np.testing.assert_array_equal(loud[:, 1], played(0.0, 0, begin_at=begin)[:, 1])
 
 
+@pytest.mark.parametrize("apart", [0, 100, 400])
+def test_bursts_that_begin_together_are_not_limited(apart: int) -> None:
+    """The second began before the first had risen, and both had the same room: a click of -13 dB."""
+    loud = played(0.6, 1200, n_bursts=4, apart=apart)
+    assert above_1_khz_db(loud[15_000:30_000, 0] * np.hanning(15_000)) < -90.0
+    assert 0.75 < np.abs(loud).max() < MOST_SUM + 1e-6
+
+
+@pytest.mark.parametrize("later", range(0, 458, 57))  # in a period of 105 Hz
+def test_a_burst_that_rises_late_leaves_less_room_for_another(later: int) -> None:
+    """Two sines that cancel at first are loudest after 50 ms."""
+    bursts, mix = Bursts(1200), np.zeros((9600, 1), np.float32)
+    bursts.start(PlannedBurst(0, [wave_of(100.0, 0.3, RATE), wave_of(110.0, 0.3, RATE)], {0: [0.5, -0.5]}))
+    bursts.start(PlannedBurst(later, [wave_of(105.0, 0.3, RATE)], {0: [0.9]}))
+    for begin in range(0, len(mix), 64):
+        bursts.add_to(mix[begin : begin + 64], begin, (0,))
+    assert np.abs(mix).max() < MOST_SUM + 1e-6
+
+
+@pytest.mark.parametrize("block", [1, 64, 4800, 48_000])
+def test_the_room_of_bursts_does_not_depend_on_block_size(block: int) -> None:
+    expected, found = (played(0.6, 1200, n_bursts=3, apart=300, block=size) for size in (256, block))
+    np.testing.assert_allclose(found, expected, atol=1e-6)
+
+
 def test_a_burst_on_a_quiet_mix_keeps_its_level() -> None:
     np.testing.assert_array_equal(played(0.4, 1200), played(0.4, 0))
 
 
-@pytest.mark.parametrize("n_frames", [0, 64])
-def test_no_more_blocks_are_kept_than_are_needed(n_frames: int) -> None:
-    bursts, blocks = Bursts(100), [np.zeros((n_frames, 1), np.float32) for _ in range(100)]
-    kept = [weakref.ref(block) for block in blocks]
-    while blocks:
-        bursts.hear(blocks.pop())
-    assert sum(block() is not None for block in kept) == (2 if n_frames else 0)
+def test_outputs_keep_their_levels_when_others_come_and_go() -> None:
+    bursts, wave = Bursts(100), wave_of(130.0, 0.08, RATE)
+    bursts.hear(np.full((64, 2), [0.8, 0.0], np.float32), (5, 6))
+    bursts.hear(np.full((8, 3), [0.0, 0.6, 0.0], np.float32), (6, 5, 7))
+    bursts.start(PlannedBurst(0, [wave], {token: [0.9] for token in (5, 6, 7, 8)}))
+    mix = np.zeros((len(wave), 3), np.float32)
+    bursts.add_to(mix, 0, (8, 7, 5))
+    np.testing.assert_allclose(np.abs(mix).max(axis=0), [0.9, 0.9, MOST_SUM - 0.8], atol=1e-6)
+
+
+def test_no_more_of_a_mix_is_kept_than_is_needed() -> None:
+    bursts = Bursts(100)
+    bursts.hear(np.full((1, 1), 0.9, np.float32), (0,))  # too long ago, after the next one
+    tracemalloc.start()
+    bursts.hear(np.zeros((1 << 20, 1), np.float32), (0,))
+    assert tracemalloc.get_traced_memory()[0] < 100_000
+    tracemalloc.stop()
+    mix = np.zeros((2000, 1), np.float32)
+    bursts.start(PlannedBurst(0, [wave_of(130.0, 0.08, RATE)], {0: [0.9]}))
+    bursts.add_to(mix, 0, (0,))
+    assert np.abs(mix).max() == pytest.approx(0.9)
 
 
 def test_fade_ends_all_bursts_without_a_click() -> None:

@@ -2,7 +2,7 @@ import numpy as np
 from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 
-from scene2hap.render.limiter import THRESHOLD, soft_limit_sum
+from scene2hap.render.limiter import THRESHOLD, limit_in_place, soft_limit_sum
 
 
 def soft_limit(x: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -27,6 +27,13 @@ def test_limiter_curve_is_smooth() -> None:
     x = np.linspace(0.6, 0.9, 30001)
     slope = np.diff(soft_limit(x)) / np.diff(x)
     assert np.abs(np.diff(slope)).max() < 0.01
+
+
+def test_a_mix_is_limited_in_place_by_the_same_curve() -> None:
+    x = np.linspace(-4, 4, 2001, dtype=np.float32)
+    mix = np.stack([x, 0.1 * x])
+    limit_in_place(mix, np.empty_like(mix), THRESHOLD)
+    np.testing.assert_allclose(mix, soft_limit(np.stack([x, 0.1 * x])), atol=1e-6)
 
 
 def test_limiter_does_not_modify_its_input() -> None:

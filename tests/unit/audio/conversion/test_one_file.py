@@ -461,6 +461,16 @@ def test_an_offset_that_was_faded_in_causes_no_thump_at_the_start(tmp_path: Path
     assert np.abs(first).max() < 0.1 * np.abs(later).max()
 
 
+@pytest.mark.parametrize("offset", [0.0, 0.1])
+def test_a_boom_that_begins_with_half_a_slow_wave_has_no_thump_at_its_start(tmp_path: Path, offset: float) -> None:
+    """The mean of this half wave was taken for an offset, and its step was four times as strong as the boom."""
+    t = np.arange(4 * RATE) / RATE
+    slow, fast = np.sin(2 * np.pi * 8.0 * t), 0.3 * np.sin(2 * np.pi * 90.0 * t)
+    felt = felt_of(tmp_path, offset + 0.6 * np.exp(-t / 0.3) * (slow + fast), converter="svf_bandpass")[0]
+    first, later = felt[: RATE // 50], felt[RATE // 25 : RATE // 8]
+    assert np.abs(first).max() < 1.3 * np.abs(later).max()
+
+
 def test_conversion_reports_the_reached_level_and_its_limit(tmp_path: Path) -> None:
     source = write(tmp_path / "a.wav", sound(4.0, 1, 150.0))
     made = audio.convert(source, tmp_path / "b.wav", converter="svf_bandpass", intensity=0.3)

@@ -30,7 +30,7 @@ from scene2hap.propagation.impact import Burst
 from scene2hap.propagation.plate import Plate
 from scene2hap.session.impacts.felt_impacts import LEAST_INTERVAL_S, PEAK, struck_later
 from scene2hap.session.impacts.gains import Floats
-from scenes import table_with_two_phones
+from scenes import table_with_two_phones, tone_loop
 from struck_table import FAR, NEAR, PHYSICAL, RATE, STRUCK, TOP_M, amplitudes, burst_at, rendered, session, touches
 
 
@@ -312,3 +312,38 @@ def test_no_impact_is_reported_beyond_full_scale() -> None:
     made.set_user(gain_db=40.0)
     assert made.strike("table", STRUCK, speed_m_s=5.0).felt == {"left": 1.0}
     assert np.abs(made.render_s(0.1)).max() <= 1.0
+
+
+def test_an_impact_on_a_loud_hand_keeps_its_shape() -> None:
+    """The limiter's curve began at -3 dB, and took the peaks of a mix with an impact."""
+    scene, bundle = table_with_two_phones()
+    loops = {x: {state: tone_loop(90, 0.9) for state in its} for x, its in bundle.loops.items()}
+    heard = []
+    for is_loud, is_struck in ((True, False), (False, True), (True, True)):
+        made = HapticSession(scene, replace(bundle, loops=loops), hands=("left",))
+        for source_id in made.source_ids:
+            made.set_source(source_id, on=is_loud)
+        made.update(touches=[Touch("left", "phone", scene.objects[2].pose.position_m), Touch("left", "table", NEAR)])
+        made.render(RATE)
+        if is_struck:
+            made.strike("table", (NEAR[0], TOP_M, 0.42), with_object="cup", speed_m_s=6.0)
+        heard.append(made.render(RATE // 2)[:, 0].astype(float))
+    tone, impact, both = heard
+    share = (both - tone) @ impact / (impact @ impact)
+    np.testing.assert_allclose(both - tone, share * impact, atol=1e-4)
+    assert np.abs(both).max() > 0.75
+
+
+@pytest.mark.parametrize("block", [64, 4800])
+def test_impacts_of_one_update_on_a_loud_hand_are_not_limited(block: int) -> None:
+    """Together they exceeded full scale in short blocks, and the limiter's curve made a click of -13 dB."""
+    scene, bundle = table_with_two_phones()
+    loops = {x: {state: tone_loop(90, 0.6) for state in its} for x, its in bundle.loops.items()}
+    made = HapticSession(scene, replace(bundle, loops=loops), hands=("left",))
+    made.update(touches=[Touch("left", "phone", scene.objects[2].pose.position_m), Touch("left", "table", NEAR)])
+    loudest = np.abs(made.render(RATE)[RATE // 2 :]).max()
+    for i, striker in enumerate((None, "cup", "alarm")):
+        made.strike("table", (NEAR[0], TOP_M, 0.4 + 0.01 * i), with_object=striker, speed_m_s=3.0)
+    heard = np.concatenate([made.render(block) for _ in range(9600 // block)])
+    # 0.95, from where sums are limited
+    assert loudest + 0.1 < np.abs(heard).max() < 0.951
