@@ -3,7 +3,7 @@
 python stress/landings.py [--seed 0] [--quiet 1000] [--falls 400]
 
 Quiet: a box, a can or a ball rests, slides, rolls, or jitters by 1 mm on the table, in changing directions at up to 1.5
-m/s, with sudden stops; half of those that rest or slide jitter as well. Each must make no impact.
+m/s, with sudden stops; half of those that rest or slide jitter as well. None of them may make an impact.
 Falls: the same things are dropped from 2 to 80 cm at up to 0.1 m/s sideways, spin about the vertical, and bounce with a
 restitution of 0 to 0.8. Times and speeds of their landings are known in closed form. Each landing must make one impact
 within three frames, if it is faster than the least speed of docs/impacts.md, the thing fell for 3 frames and 8 mm, and

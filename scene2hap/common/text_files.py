@@ -152,7 +152,7 @@ def put_in_place(draft: Path, path: Path) -> None:
 
 
 class DraftSet:
-    """Drafts of several files, each with its file. As a context it removes those that `put_in_place` has not used."""
+    """Drafts of several files, with their paths. As a context it removes drafts that have not replaced their files."""
 
     def __init__(self) -> None:
         self.drafts: list[tuple[Path, Path]] = []

@@ -460,13 +460,13 @@ def test_a_pose_of_an_object_that_does_not_move_is_reported_once(driver: Driver)
 
     with scripted(handle) as url:
         driver.do(f"create {url} - 0 0")
-        driver.one("pose table 0 1 0")  # which may yet be among those that move
+        driver.one("pose table 0 1 0")  # `play` has not said yet which objects move
         driver.one("play 0 b phone newest")
         driver.until("playing")
         for height_m in (1, 2, 3):
             driver.one(f"pose phone 0 {height_m} 0")
             driver.one(f"pose table 0 {height_m} 0")
-            driver.one(f"pose lamp 0 {height_m} 0")  # which may come later
+            driver.one(f"pose lamp 0 {height_m} 0")  # `add` may bring it later
         driver.do("frame 0.1")
         driver.until("warning")
         (text,) = [one["text"] for one in driver.before if one["event"] == "error"]

@@ -453,7 +453,7 @@ def test_constant_offset_causes_no_thump_at_the_start(tmp_path: Path) -> None:
 
 
 def test_an_offset_that_was_faded_in_causes_no_thump_at_the_start(tmp_path: Path) -> None:
-    """A hum that begins at nothing is felt from nothing on, also if its recording had an offset before the fade."""
+    """A hum that is faded in rises as slowly in the vibration, also if its recording had an offset before the fade."""
     fade_in = np.minimum(np.arange(6 * RATE) / (0.3 * RATE), 1.0)
     faded = (sound(6.0, 1, 150.0)[:, 0] * 0.3 + 0.1) * fade_in
     felt = felt_of(tmp_path, faded, converter="svf_bandpass")[0]
