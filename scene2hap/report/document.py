@@ -83,8 +83,10 @@ def report_document(
     meshes: dict[str, int] = {}
     whole = shells(scene)
     hides: dict[str, Direction | None] = {**walls(scene, bundle.loops), **dict.fromkeys(whole)}
+    # A hand is laid on a source, even if the source encloses the scene, as a machine does that is a scene of its own.
+    off_map = whole - bundle.loops.keys()
     scene_paths = ScenePaths(bundle)
-    felt = felt_map(bundle, models, scene_paths=scene_paths, shells=whole, most_points=most_points)
+    felt = felt_map(bundle, models, scene_paths=scene_paths, shells=off_map, most_points=most_points)
     looks = {} if pictures is None else _looks(pictures, scene)
     loops = LoopPairs()
     objects = [_object(bundle, item, looks.get(item.id), meshes, loops, hides) for item in scene.objects]
@@ -101,7 +103,7 @@ def report_document(
             "seed": None if made is None else made.seed,
         },
         "counters": _counters(bundle),
-        "left_out": left_out(bundle, felt, whole),
+        "left_out": left_out(bundle, felt, off_map),
         "warnings": [str(found) for found in scene.check()],
         "account": None if account is None else account_table(account),
         "meshes": _meshes(scene, meshes),

@@ -422,6 +422,11 @@ def test_walls_towards_the_camera_are_hidden(walled: Opened) -> None:
     assert walled.report(f"pick({x}, {y - 40})") == "north"
 
 
+def test_the_table_tells_objects_without_points_from_objects_without_vibration(walled: Opened) -> None:
+    ceiling = walled.page.locator("tbody tr", has_text="ceiling")
+    assert ceiling.locator("td").nth(5).inner_text() == "not on the map"
+
+
 def test_source_named_all_is_listed_separately(walled: Opened) -> None:
     sources = walled.page.get_by_label("source", exact=True)
     assert sources.locator("option").all_inner_texts() == ["all sources", "smartphone", "electric fan"]

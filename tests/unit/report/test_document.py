@@ -112,6 +112,18 @@ def test_silent_and_single_scenes_have_a_page_too(mug: HapticBundle) -> None:
     assert found["objects"][0]["states"] == []
 
 
+def test_a_source_that_encloses_its_scene_is_on_the_felt_map() -> None:
+    """In an earlier version a dishwasher with its rack counted as a room, and a hand on it felt nothing."""
+    dishwasher = SceneObject("dishwasher", geometry=Box((0.6, 0.8, 0.6)))
+    rack = SceneObject("rack", pose=Pose((0.0, -0.37, 0.0)), geometry=Box((0.5, 0.06, 0.5)))
+    bundle = bake(SceneSnapshot.build([dishwasher, rack], name="kitchen"))
+    document = report_document(bundle, most_points=200)
+    assert {patch["object"] for patch in document["felt"]["patches"]} == {"dishwasher", "rack"}
+    assert not any("hides the room" in row["why"] for row in document["left_out"])
+    # The page still cuts it open, so that the rack is visible.
+    assert document["objects"][0]["is_shell"]
+
+
 def test_every_view_shows_the_same_frequency_of_a_melody(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """In an earlier version the report showed the mean of a radio's notes, 83 Hz, at which nothing vibrates."""
     bundle = bake(SceneSnapshot.build([SceneObject("radio", geometry=Box((0.3, 0.2, 0.12)))]))

@@ -324,11 +324,11 @@ export function makeSceneView({ canvas, layer, report, felt, store, onHover, onF
   };
 }
 
-/** Bounds of the objects inside the shells; of the shells if there are no other objects. */
+/** Bounds of the sources and of the objects inside the shells; of the shells if there are no other objects. */
 function boundsOf(items) {
   const bounds = new Box3();
   const all = [...items.values()];
-  const inside = all.filter((item) => !item.object.is_shell);
+  const inside = all.filter(({ object }) => !object.is_shell || object.is_source);
   for (const item of inside.length > 0 ? inside : all) {
     bounds.union(item.mesh.geometry.boundingBox.clone().applyMatrix4(item.mesh.matrixWorld));
   }

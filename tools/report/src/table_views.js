@@ -10,8 +10,9 @@ export function makeTableViews({ element, report, felt, store, onFocus }) {
   const level = (object) => felt.highest(object.id, store.get("choice"));
   const db = (value) => (value === null ? null : value.toFixed(1));
   const { low_db, high_db } = report.felt;
-  const shownEnds = (value) => {
-    if (value === null) return "nothing";
+  const shownLevel = (object) => {
+    const value = level(object);
+    if (value === null) return felt.byObject.has(object.id) ? "nothing" : "not on the map";
     if (value <= low_db) return `≤ ${low_db}`;
     return value >= high_db ? `≥ ${high_db}` : db(value);
   };
@@ -28,7 +29,7 @@ export function makeTableViews({ element, report, felt, store, onFocus }) {
         { label: "material", value: (object) => object.material },
         { label: "confidence", value: (object) => object.confidence, shown: (object) => `${Math.round(100 * object.confidence)} %` },
         { label: "source", value: (object) => (object.is_source ? object.states.map((state) => state.name).join(", ") || "yes" : "") },
-        { label: "felt [dB]", value: level, shown: (object) => shownEnds(level(object)) },
+        { label: "felt [dB]", value: level, shown: shownLevel },
         { label: "corrected", value: (object) => (object.override ? Object.keys(object.override).join(", ") : "") },
       ],
     }),
