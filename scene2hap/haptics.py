@@ -172,7 +172,8 @@ def checked_mass_kg(mass_kg: object, error: type[Scene2HapError]) -> float:
 class VibrationDescription:
     """The request to a sound source: one state of one object.
 
-    A synthesizer uses `size_m` [m] and `material` to shape the sound; `seed` makes its output repeatable.
+    A synthesizer uses `size_m` [m] and `material` to shape the sound; `seed` makes its output repeatable. `own_word` is
+    the author's word for the object, as "windmill" of a turbine, or ""; sources that search by name prefer it.
     """
 
     object_category: str
@@ -183,9 +184,10 @@ class VibrationDescription:
     size_m: tuple[float, float, float]
     material: str = ""
     seed: int = 0
+    own_word: str = ""
 
     def __post_init__(self) -> None:
-        for name in ("object_category", "state", "sentence", "keywords", "material"):
+        for name in ("object_category", "state", "sentence", "keywords", "material", "own_word"):
             checks.text(name, getattr(self, name), error=ConfigError)
         checks.seed(self.seed)
 

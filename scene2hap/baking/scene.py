@@ -132,7 +132,7 @@ async def bake_inferred(
         before_bake = EarlierLoops(edited | locked, earlier.choices, any_source=False)
         kept = {key: replace_vibration(inferred[key], earlier.objects[key]) for key in locked if key in inferred}
         inferred = {**inferred, **kept}
-    objects, sounds = await _make_loops(inferred, overrides, config, progress, before_bake, {})
+    objects, sounds = await _make_loops(scene, inferred, overrides, config, progress, before_bake, {})
     warn_of_scene(scene, objects)
     warn_of_vain_corrections(objects, overrides)
     before = answers_before(with_recorded_times(answers, sounds.loops, {}), overrides, {})
@@ -142,6 +142,7 @@ async def bake_inferred(
 
 
 async def _make_loops(
+    scene: SceneSnapshot,
     inferred: Mapping[str, ObjectHaptics],
     overrides: Mapping[str, Override],
     config: BakeConfig,
@@ -154,7 +155,8 @@ async def _make_loops(
     `timed_by` has the loops whose times the inferred objects have already. A person's corrections have priority.
     """
     objects = apply_overrides(inferred, overrides)
-    sounds = await make_loops(objects, overrides, config, progress, earlier, inferred)
+    names = {item.id: overrides.get(item.id, NONE).name or item.name for item in scene.objects}
+    sounds = await make_loops(objects, overrides, config, progress, earlier, inferred, names)
     return apply_overrides(with_recorded_times(objects, sounds.loops, timed_by), overrides), sounds
 
 
@@ -275,7 +277,9 @@ async def arebake(
         any_source=not given & {"audio", "enough_candidates"},
         any_making=not given & {"actuator", "tactile", "spread"},
     )
-    baked, sounds = await _make_loops(inferred, bundle.overrides, config, progress, earlier, bundle.loops)
+    baked, sounds = await _make_loops(
+        bundle.snapshot, inferred, bundle.overrides, config, progress, earlier, bundle.loops
+    )
     if on_remade is not None:
         on_remade(sounds.remade)
     warn_of_weak_loops(sounds, bundle.overrides, config.actuator)

@@ -17,7 +17,7 @@ import numpy as np
 
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.felt_loop import Plan, SourceClip, felt_loop, plan_scene
-from scene2hap.audio.files import as_stored
+from scene2hap.audio.files import as_stored, sound_digest
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.loops import middle_of, without_silent_ends
 from scene2hap.audio.protocol import follows_target
@@ -33,6 +33,7 @@ from scene2hap.baking.fingerprint import (
     made_by,
     request_digests,
 )
+from scene2hap.baking.own_words import own_word
 from scene2hap.baking.recorded_times import NO_RUNS, Runs, runs_of, shown_runs
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.bundle.edited_loops import LOOPS, is_edited, loop_digests
@@ -110,16 +111,17 @@ async def make_loops(
     progress: Progress | None = None,
     earlier: EarlierLoops | None = None,
     inferred: Mapping[str, ObjectHaptics] | None = None,
+    names: Mapping[str, str] | None = None,
 ) -> Sounds:
     """Make the loops of all objects.
 
     All sounds are chosen before any is converted, since each source is moved away from the frequencies of the others.
     `inferred` are the objects before a person corrected them: a corrected intensity changes the level of a sound, not
-    the sound itself.
+    the sound itself. `names` are the names of the objects, by which a source may search.
     """
     wanted = [(key, haptics, state) for key, haptics in objects.items() if haptics.vibrates for state in haptics.states]
     before, tell = earlier or EarlierLoops(), progress or no_progress
-    sounds, chooser = Sounds(), _Chooser(config, overrides, before, inferred or objects)
+    sounds, chooser = Sounds(), _Chooser(config, overrides, before, inferred or objects, names or {})
     parts = []
     for done, (object_id, haptics, state) in enumerate(wanted, start=1):
         part, why = await asyncio.to_thread(chooser.part, object_id, haptics, state)
@@ -233,9 +235,12 @@ class _Chooser:
         overrides: Mapping[str, Override],
         earlier: EarlierLoops,
         inferred: Mapping[str, ObjectHaptics],
+        names: Mapping[str, str],
     ) -> None:
         self._config, self._overrides, self._earlier, self._inferred = config, overrides, earlier, inferred
+        self._names = names
         self._chosen: dict[VibrationDescription, tuple[AudioClip, str, Runs]] = {}
+        self._clips: dict[tuple[VibrationDescription, str], AudioClip] = {}
         self._own: dict[str, tuple[AudioClip, Runs]] = {}
 
     def part(self, object_id: str, haptics: ObjectHaptics, state: SourceState) -> tuple[_Part, str]:
@@ -254,7 +259,7 @@ class _Chooser:
             return _Part(object_id, state, group, clip, request, before, override.keep, runs=shown), ""
         before_corrected = self._inferred.get(object_id, haptics)
         as_inferred = next((one for one in before_corrected.states if one.name == state.name), state)
-        description = self._description(before_corrected, as_inferred)
+        description = self._description(object_id, before_corrected, as_inferred)
         request = request_digests(description, self._config)
         if before is not None and object_id not in self._earlier.chosen_again:
             why = self._earlier.choices.get(object_id, {}).get(state.name, "")
@@ -268,7 +273,9 @@ class _Chooser:
         if description not in self._chosen:
             choice = self._choose(object_id, description)
             runs = choice.start_up, choice.wind_down
-            self._chosen[description] = _prepared(choice.winner), str(choice), runs
+            # Objects that differ in their authors' words alone share the loops of a sound that suits both.
+            key = replace(description, own_word=""), sound_digest(choice.winner)
+            self._chosen[description] = self._clips.setdefault(key, _prepared(choice.winner)), str(choice), runs
         clip, why, runs = self._chosen[description]
         return _Part(object_id, state, group, clip, request, before, runs=shown_runs(runs, state, before)), why
 
@@ -287,7 +294,7 @@ class _Chooser:
                 "as the last source."
             ) from cause
 
-    def _description(self, haptics: ObjectHaptics, state: SourceState) -> VibrationDescription:
+    def _description(self, object_id: str, haptics: ObjectHaptics, state: SourceState) -> VibrationDescription:
         return VibrationDescription(
             object_category=haptics.object_category,
             state=state.name,
@@ -297,6 +304,7 @@ class _Chooser:
             size_m=haptics.estimated_size_m,
             material=haptics.material_category,
             seed=self._config.seed,
+            own_word=own_word(self._names.get(object_id, ""), haptics.object_category),
         )
 
 

@@ -45,29 +45,36 @@ class FolderLibrary:
     def find(self, description: VibrationDescription) -> list[AudioClip]:
         """Return up to five sounds whose words name the object, those with most words of the description first.
 
-        Sounds that name also what the object does come first, and alone if one of them is long enough to be chosen.
-        A sound with the right verb but another object does not match: a boiling kettle is no boiling pan. Nor does one
-        that shares only a word for anything: a sewing machine is no vending machine. Files that cannot be read are
-        skipped with an `UnreadableSound` warning. Raises: ConfigError: see `FolderLibrary`.
+        Sounds with the author's word for the object come first, then those that also name what the object does. If one
+        of them is long enough to be chosen, sounds that say less are left out. A sound with the right verb but another
+        object does not match: a boiling kettle is no boiling pan. Nor does one that shares only a word for anything: a
+        sewing machine is no vending machine. Files that cannot be read are skipped with an `UnreadableSound` warning.
+        Raises: ConfigError: see `FolderLibrary`.
         """
         self._require_folder()
-        nouns = noun_phrase(description.object_category)
-        wanted = {*nouns, *stems(description.keywords)}
+        nouns, own = noun_phrase(description.object_category), set(stems(description.own_word))
+        wanted = {*nouns, *own, *stems(description.keywords)}
+        doing = wanted - {*nouns, *own}
         head = set(nouns[-2:] if nouns and says_nothing(nouns[-1]) else nouns[-1:])
-        matches = [(path, words, credit) for path, words, credit in self._entries() if head and head <= words]
-        doing = wanted - set(nouns)
-        matches.sort(key=lambda match: (not doing & match[1], -len(wanted & match[1]), match[0].as_posix()))
+
+        def rank(words: set[str]) -> tuple[bool, bool]:
+            return not own <= words, not doing & words
+
+        names = [name for name in (own, head) if name]
+        matches = [entry for entry in self._entries() if any(name <= entry[1] for name in names)]
+        matches.sort(key=lambda match: (*rank(match[1]), -len(wanted & match[1]), match[0].as_posix()))
         found: list[AudioClip] = []
-        is_enough = False
+        enough: tuple[bool, bool] | None = None
         for path, words, credit in matches:
-            if len(found) == MAX_CANDIDATES or (is_enough and not doing & words):
+            if len(found) == MAX_CANDIDATES or (enough is not None and rank(words) > enough):
                 break
             try:
                 found.append(read_clip(path, replace(credit, query=description.keywords, origin="library")))
             except AudioError as cause:
                 warn_of(f"skipped: {cause}", UnreadableSound)
             else:
-                is_enough |= bool(doing & words) and found[-1].duration_s > MIN_DURATION_S
+                if enough is None and found[-1].duration_s > MIN_DURATION_S:
+                    enough = rank(words)
         return found
 
     def _require_folder(self) -> None:

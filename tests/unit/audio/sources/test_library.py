@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import unicodedata
 import warnings
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -36,6 +37,17 @@ def titles(folder: Path, category: str, keywords: str) -> list[str]:
 def test_library_orders_files_by_shared_words(tmp_path: Path) -> None:
     fill(tmp_path, "fan_1.wav", "computer-fan-hum.wav", "sub/Computer_Fans.WAV", "fridge_hum.wav", "notes.txt.wav")
     assert titles(tmp_path, "computer fan", "computer fan humming") == ["computer-fan-hum", "Computer_Fans", "fan_1"]
+
+
+def test_sounds_with_the_authors_word_come_alone(tmp_path: Path) -> None:
+    """In an earlier version only the type was searched, so that a windmill did not find its file."""
+    fill(tmp_path, "windmill creaking.wav", "wind turbine whirring.wav", "water mill.wav", duration_s=3.0)
+    windmill = replace(describe("turbine", "turbine whirring"), own_word="windmill")
+    assert [clip.credit.title for clip in FolderLibrary(tmp_path).find(windmill)] == ["windmill creaking"]
+    assert titles(tmp_path, "turbine", "turbine whirring") == ["wind turbine whirring"]
+    # Every word is needed: a stage monitor is a speaker, and no screen.
+    monitor = replace(describe("speaker", "speaker playing"), own_word="stage monitor")
+    assert FolderLibrary(fill(tmp_path, "computer monitor.wav")).find(monitor) == []
 
 
 def test_sounds_of_what_the_object_does_come_alone(tmp_path: Path) -> None:

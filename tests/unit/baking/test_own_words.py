@@ -1,0 +1,65 @@
+"""The words by which authors call their objects, and the sounds that are found by them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from own_sounds import RATE_HZ
+from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake, rebake
+from scene2hap.audio.files import encoded
+from scene2hap.baking.own_words import own_word
+
+
+@pytest.mark.parametrize(
+    ("name", "category", "word"),
+    [
+        ("windmill", "turbine", "windmill"),
+        ("SM_Windmill_02(Clone)", "turbine", "windmill"),
+        ("mill", "milling machine", "mill"),
+        ("Kühlschrank_2", "refrigerator", "Kühlschrank"),
+        ("zorgon_07", "alien machine", "zorgon"),
+        # The model sees another object than the lexicon reads.
+        ("fridge_door", "refrigerator", "fridge door"),
+        # Words that say no more than the category.
+        ("Fridge_01", "refrigerator", ""),
+        ("chain saw", "chainsaw", ""),
+        ("Machine_3", "vending machine", ""),
+        ("Object_12", "refrigerator", ""),
+        ("", "fan", ""),
+    ],
+)
+def test_own_word_of_a_name(name: str, category: str, word: str) -> None:
+    assert own_word(name, category) == word
+
+
+def _scene(**names: str) -> SceneSnapshot:
+    boxes = [
+        SceneObject(key, name, Pose((2.0 * i, 0.5, 0.0)), Box((1.0, 1.0, 1.0)))
+        for i, (key, name) in enumerate(names.items())
+    ]
+    return SceneSnapshot.build(boxes, name="yard")
+
+
+def _titles(bundle: HapticBundle) -> dict[str, str]:
+    return {key: loop.audible.credit.title for key, states in bundle.loops.items() for loop in states.values()}
+
+
+def test_an_object_has_the_sound_of_its_authors_word(tmp_path: Path) -> None:
+    rng = np.random.default_rng(0)
+    for name in ("windmill", "wind turbine", "bonfire"):
+        (tmp_path / f"{name}.wav").write_bytes(encoded(0.1 * rng.standard_normal(4 * RATE_HZ), RATE_HZ))
+    config = {"audio": [{"kind": "library", "folder": str(tmp_path)}, {"kind": "synth"}]}
+    bundle = bake(_scene(a="SM_Windmill_02", b="Turbine_01", c="radio"), config)
+    titles = _titles(bundle)
+    assert (titles["a"], titles["b"]) == ("windmill", "wind turbine")
+    # A name that a person gives counts as well.
+    renamed = rebake(bundle.override("c", name="bonfire"), config)
+    assert _titles(renamed)["c"] == "bonfire"
+
+
+def test_other_words_for_one_type_share_its_sound() -> None:
+    loops = bake(_scene(a="windmill", b="turbine", c="windmill_2")).loops
+    assert loops["a"]["on"].tactile is loops["b"]["on"].tactile is loops["c"]["on"].tactile
