@@ -13,6 +13,7 @@ from scene2hap.audio.conversion.clips import PRE_ROLL_S, convert_clip
 from scene2hap.audio.conversion.repetition import one_period, with_repetitions
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB, is_noise, most_felt_hz
+from scene2hap.audio.loops.marked import marked_part
 from scene2hap.audio.loops.seam_search import (
     CROSSFADE_S,
     LEAST_POWER,
@@ -43,9 +44,10 @@ def middle_of(clip: AudioClip) -> AudioClip:
 
     The seam search uses only this part, so the rest of the clip would never be heard. If the middle is a pause, the
     nearest part with enough sound is taken. Of a clip with a marked loop, this loop is returned.
+    Warns: LoopWarning: the marked loop jumps where it repeats.
     """
     if clip.loop is not None:
-        return clip.part(*clip.loop)
+        return marked_part(clip, clip.loop)
     rate = clip.sample_rate_hz
     n = round((MAX_LOOP_S + CROSSFADE_S + 2.0 * _RUN_UP_S) * rate)
     if len(clip.samples) <= n:

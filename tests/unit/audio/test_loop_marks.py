@@ -1,6 +1,7 @@
 """A loop that a WAV marks is the loop: files written by libsndfile, by hand, and as other programs leave them."""
 
 import struct
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import soundfile
 from scene2hap import AudioClip
 from scene2hap.audio.files import encoded, read_clip
 from scene2hap.audio.loops import loop_pair, middle_of
+from scene2hap.audio.loops.marked import LoopWarning
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.recorded_runs import recorded_runs
 from scene2hap.audio.select import explain_choice
@@ -139,3 +141,18 @@ def test_a_start_counts_only_outside_of_the_marked_part() -> None:
     after = recorded_runs(x, RATE, (3 * RATE, 4 * RATE))
     assert (after.start_up, after.first, after.end) == (found.start_up, 3 * RATE, 4 * RATE)
     assert recorded_runs(x, RATE, (RATE, 4 * RATE)).start_up is None
+
+
+def test_a_mark_at_a_bad_place_is_said(tmp_path: Path) -> None:
+    """In an earlier version a loop that jumps knocked at each repetition, without a word to the user."""
+    sound = tone(2.0)
+    # 1050 samples are 15.75 cycles of 120 Hz: the loop ends at the trough of the tone, and begins at zero.
+    path = marked(tmp_path / "knocking fan.wav", sound, (FORWARDS, 0, 1049))
+    said = r"'knocking fan' marks jumps .* by (99|100)% of its peak, 11 times its largest"
+    with pytest.warns(LoopWarning, match=said):
+        middle_of(read_clip(path))
+    noise = np.random.default_rng(0).uniform(-0.3, 0.3, 2 * RATE)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        middle_of(read_clip(marked(tmp_path / "whole cycles.wav", sound, (FORWARDS, 0, 7999))))
+        middle_of(read_clip(marked(tmp_path / "noise.wav", noise, (FORWARDS, 0, 7999))))
