@@ -1,8 +1,10 @@
 import numpy as np
+import pytest
 from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 
-from scene2hap.render.limiter import THRESHOLD, limit_in_place, soft_limit_sum
+from scene2hap.render.bursts import MOST_SUM
+from scene2hap.render.limiter import THRESHOLD, decays, limit_in_place, soft_limit_sum, turn_down_in_place
 
 
 def soft_limit(x: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -62,3 +64,13 @@ def test_a_sum_follows_a_small_addition_to_a_loud_mix() -> None:
     for added in (1e-4, -1e-4, 1e-3, -1e-3):
         change = soft_limit_sum(mix, mix + np.float32(added)) - mix
         assert np.abs(change).max() <= abs(added) * 1.001
+
+
+@pytest.mark.parametrize("peak", [1.0, 3.0, 10.0])
+def test_sources_that_last_leave_the_impacts_their_part(peak: float) -> None:
+    """As docs/impacts.md says: 0.2 of full scale, from 30 ms after the source begins."""
+    times_s = np.arange(24_000) / 48_000
+    mix = (peak * np.sin(2 * np.pi * 40.0 * times_s)).astype(np.float32)[None]
+    turn_down_in_place(mix, np.zeros((2, 1)), np.zeros((2, 1, mix.size)), THRESHOLD, decays(48_000, mix.size))
+    limit_in_place(mix, np.empty_like(mix), THRESHOLD)
+    assert np.abs(mix[0, times_s > 0.03]).max() < MOST_SUM - 0.2
