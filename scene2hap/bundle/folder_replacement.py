@@ -18,8 +18,6 @@ import hashlib
 import os
 import re
 import shutil
-import sys
-import time
 import uuid
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
@@ -30,15 +28,10 @@ from scene2hap.bundle.folder_swap import exchange
 from scene2hap.bundle.foreign_files import carry_over, discard
 from scene2hap.bundle.manifest import MANIFEST, our_files
 from scene2hap.common.file_stamp import Stamp, file_stamp
+from scene2hap.common.folder_locks import is_old, lock_folder
 from scene2hap.common.renaming import rename
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import BundleChanged, BundleError, BundleIncomplete, reason_of, unwritable
-
-if sys.platform != "win32":
-    import fcntl
-
-ABANDONED_S = 86400.0
-"""Age after which a draft counts as abandoned if folders cannot be locked [s]; assumed: a save takes seconds."""
 
 _MARK = ".scene2hap-"
 
@@ -131,7 +124,7 @@ def recover(target: Path) -> None:
     for old in _left_beside(place, "old"):
         new = old.with_suffix(".new")
         with ExitStack() as held:
-            if not (new / MANIFEST).is_file() or _lock(new, held) is False or os.path.lexists(place):
+            if not (new / MANIFEST).is_file() or lock_folder(new, held) is False or os.path.lexists(place):
                 continue  # another process works on it
             try:
                 rename(new, place)
@@ -166,7 +159,7 @@ def _put(
                 continue  # another process was faster
             return
         with ExitStack() as old_held:
-            if _lock(place, old_held, wait=True) is False:
+            if lock_folder(place, old_held, wait=True) is False:
                 continue  # it has been replaced in the meantime
             require_replaceable(target)
             if since is not None and save_stamp(place) != since:
@@ -210,7 +203,7 @@ def _new_draft(place: Path, held: ExitStack) -> Path:
         except OSError:
             made.rmdir()
             raise
-        if _lock(draft, held) is not False:
+        if lock_folder(draft, held) is not False:
             return draft
 
 
@@ -253,31 +246,9 @@ def _is_draft(path: Path) -> bool:
         return False
 
 
-def _lock(folder: Path, held: ExitStack, *, wait: bool = False) -> bool | None:
-    """Lock a folder until `held` is closed or the process dies.
-
-    Returns False if another process has the lock, or the folder is gone; None if the system has no locks for folders.
-    """
-    try:
-        if sys.platform != "win32":
-            descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-            held.callback(os.close, descriptor)
-            fcntl.flock(descriptor, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
-            return os.path.samestat(os.fstat(descriptor), os.stat(folder))
-        # Windows has no lock for folders.
-        return None if os.path.lexists(folder) else False
-    except (BlockingIOError, FileNotFoundError, NotADirectoryError):
-        return False
-    except OSError:  # a file system without locks, or a folder that cannot be read
-        return None
-
-
 def _is_abandoned(folder: Path, held: ExitStack) -> bool:
-    is_locked = _lock(folder, held)
-    if is_locked is None:
-        with suppress(OSError):
-            return folder.stat().st_mtime < time.time() - ABANDONED_S
-    return bool(is_locked)
+    is_locked = lock_folder(folder, held)
+    return is_old(folder) if is_locked is None else is_locked
 
 
 def _resolved(target: Path) -> Path:

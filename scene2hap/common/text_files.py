@@ -11,7 +11,7 @@ import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import BinaryIO, Self
+from typing import BinaryIO
 
 from scene2hap.common.renaming import replace
 
@@ -86,14 +86,14 @@ def is_lfs_pointer(path: Path) -> bool:
         return file.read(len(_LFS_POINTER)) == _LFS_POINTER
 
 
-def draft_path(path: Path) -> Path:
-    """Return a new path in the same folder, with the same suffix, which `drafts_of` finds.
+def draft_path(path: Path, kind: str = "part") -> Path:
+    """Return a new path in the same folder, with the same suffix, which `drafts_of` finds if it is a "part".
 
     Raises: OSError: there is a device or a pipe, such as /dev/null, which a file must not replace.
     """
     if path.exists() and not (path.is_file() or path.is_dir()):
         raise OSError(errno.EEXIST, "it is a device or a pipe")
-    return path.with_name(f"{_draft_stem(path)}{uuid.uuid4().hex}.part{path.suffix}")
+    return path.with_name(f"{_draft_stem(path)}{uuid.uuid4().hex}.{kind}{path.suffix}")
 
 
 def require_place(path: Path) -> None:
@@ -123,7 +123,7 @@ def drafts_of(path: Path) -> list[Path]:
 
 def _draft_stem(path: Path) -> str:
     name = os.fsencode(path.name)
-    room = _LONGEST_NAME - len(os.fsencode(f"..{'0' * 32}.part{path.suffix}"))
+    room = _LONGEST_NAME - len(os.fsencode(f"..{'0' * 32}.draft{path.suffix}"))
     return f".{name[: max(room, 0)].decode(errors='ignore') if len(name) > room else path.name}."
 
 
@@ -149,28 +149,6 @@ def put_in_place(draft: Path, path: Path) -> None:
     with draft.open("rb+") as file:
         os.fsync(file.fileno())
     replace(draft, path)
-
-
-class DraftSet:
-    """Drafts of several files, with their paths. As a context it removes drafts that have not replaced their files."""
-
-    def __init__(self) -> None:
-        self.drafts: list[tuple[Path, Path]] = []
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        for draft, _path in self.drafts:
-            with suppress(OSError):
-                draft.unlink(missing_ok=True)
-
-    def write(self, path: Path, content: bytes) -> None:
-        """Write the draft of one more file. Raises: OSError: it cannot be written, or cannot replace what is there."""
-        require_place(path)
-        draft = draft_path(path)
-        self.drafts.append((draft, path))
-        draft.write_bytes(content)
 
 
 def write_whole(path: Path, content: str | bytes) -> None:
