@@ -12,7 +12,8 @@ from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import SUFFIXES, read_clip
 from scene2hap.audio.select import MIN_DURATION_S
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES
-from scene2hap.audio.sources.word_stems import noun_phrase, says_nothing, stems
+from scene2hap.audio.sources.disk_cache import is_long_enough
+from scene2hap.audio.sources.word_stems import joined_stems, noun_phrase, says_nothing, stems
 from scene2hap.common import checks
 from scene2hap.common.csv_tables import csv_reader
 from scene2hap.common.text_files import read_small_text
@@ -25,6 +26,10 @@ INDEX_NAME = "sounds.csv"
 
 class UnreadableSound(UserWarning):
     """A file of the library that cannot be used was skipped."""
+
+
+class ShortSound(UserWarning):
+    """All files of the library that name an object are too short to be used."""
 
 
 @dataclass(frozen=True)
@@ -48,8 +53,9 @@ class FolderLibrary:
         Sounds with the author's word for the object come first, then those that also name what the object does. If one
         of them is long enough to be chosen, sounds that say less are left out. A sound with the right verb but another
         object does not match: a boiling kettle is no boiling pan. Nor does one that shares only a word for anything: a
-        sewing machine is no vending machine. Files that cannot be read are skipped with an `UnreadableSound` warning.
+        sewing machine is no vending machine.
         Raises: ConfigError: see `FolderLibrary`.
+        Warns: UnreadableSound: a file that cannot be read was skipped; ShortSound: no sound is long enough.
         """
         self._require_folder()
         nouns, own = noun_phrase(description.object_category), set(stems(description.own_word))
@@ -73,8 +79,16 @@ class FolderLibrary:
             except AudioError as cause:
                 warn_of(f"skipped: {cause}", UnreadableSound)
             else:
-                if enough is None and found[-1].duration_s > MIN_DURATION_S:
+                if enough is None and is_long_enough(found[-1]):
                     enough = rank(words)
+        if found and enough is None:
+            titles = ", ".join(repr(clip.credit.title) for clip in found)
+            warn_of(
+                f"{self.folder} has sounds of {description.own_word or description.object_category!r}, but none lasts "
+                f"more than {MIN_DURATION_S:g} s without its silent ends, so that none is used: {titles}. Record it "
+                "longer, or repeat it in an audio editor.",
+                ShortSound,
+            )
         return found
 
     def _require_folder(self) -> None:
@@ -89,7 +103,7 @@ class FolderLibrary:
             return
         for path in self.folder.rglob("*"):
             if path.suffix.lower() in SUFFIXES:
-                yield path, set(stems(path.stem)), Credit(path.stem, "unknown", "unknown")
+                yield path, _words(path.stem), Credit(path.stem, "unknown", "unknown")
 
     def _listed(self, index: Path) -> Iterator[tuple[Path, set[str], Credit]]:
         try:
@@ -122,4 +136,9 @@ class FolderLibrary:
                         "Copy it there."
                     )
                 credit = Credit(title or path.stem, author or "unknown", licence or "unknown", address)
-                yield path, set(stems(keywords or path.stem)), credit
+                yield path, _words(keywords or path.stem), credit
+
+
+def _words(name: str) -> set[str]:
+    """Return the stems of a name, also those of two words as one: "WindMill" is a windmill."""
+    return {*stems(name), *joined_stems(name)}

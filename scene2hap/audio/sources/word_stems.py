@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from functools import cache
+from itertools import pairwise
 
 # Spelling (plain English) -> the usual short name of the same thing; only where the last word alone is not enough.
 _SAME_THING = {
@@ -54,9 +55,7 @@ _LONGEST_NAME = max(len(name.split()) for name in _SAME_THING)
 
 def stems(text: str) -> tuple[str, ...]:
     """Return the stems of a text or file name in order: lower case, without numbers and endings, one for synonyms."""
-    # File names of macOS have an accent as a character of its own, which would end the word.
-    spaced = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", unicodedata.normalize("NFC", text))
-    words = [_stem(word) for word in re.findall(r"[^\W\d_]+", spaced.lower())]
+    words = [_stem(word) for word in _spelled(text)]
     found: list[str] = []
     while words:
         for n in range(min(_LONGEST_NAME, len(words)), 0, -1):
@@ -66,6 +65,11 @@ def stems(text: str) -> tuple[str, ...]:
                 words = words[n:]
                 break
     return tuple(found)
+
+
+def joined_stems(text: str) -> tuple[str, ...]:
+    """Return the stems of each two neighbouring words, written as one: the stem of "windmill" for "WindMill"."""
+    return tuple(_stem(first + second) for first, second in pairwise(_spelled(text)))
 
 
 def noun_phrase(category: str) -> tuple[str, ...]:
@@ -88,6 +92,12 @@ def spelled_phrase(category: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
         if tuple(map(_stem, words[-n:])) in _names():
             return words, words[-n:]
     return words, words[-1:]
+
+
+def _spelled(text: str) -> list[str]:
+    # File names of macOS have an accent as a character of its own, which would end the word.
+    spaced = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", unicodedata.normalize("NFC", text))
+    return re.findall(r"[^\W\d_]+", spaced.lower())
 
 
 @cache

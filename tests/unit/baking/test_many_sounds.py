@@ -12,6 +12,7 @@ import soundfile
 from scene2hap import Box, SceneObject, SceneSnapshot, bake
 from scene2hap.audio.clip import AudioClip, Credit, Samples
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.sources.library import ShortSound
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import CONVERTERS
 from scene2hap.baking.sound import Sounds, make_loops
@@ -125,5 +126,6 @@ def test_an_object_whose_sounds_are_all_too_short_is_named(tmp_path: Path) -> No
     """The name of the file alone does not tell which object needs a longer sound."""
     soundfile.write(tmp_path / "fan.wav", 0.3 * np.sin(2 * np.pi * 120 * np.arange(48_000) / 48_000), 48_000)
     scene = SceneSnapshot.build([SceneObject("desk fan 7", geometry=Box((0.3, 0.4, 0.2)))])
-    with pytest.raises(AudioError, match=r"'desk fan 7'.*none of 1 candidate is long enough.*lasts 1\.00 s.*'synth'"):
+    said = r"'desk fan 7'.*none of 1 candidate is long enough.*lasts 1\.00 s.*'synth'"
+    with pytest.warns(ShortSound), pytest.raises(AudioError, match=said):
         bake(scene, {"audio": {"kind": "library", "folder": str(tmp_path)}})
