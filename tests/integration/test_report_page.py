@@ -425,6 +425,7 @@ def test_walls_towards_the_camera_are_hidden(walled: Opened) -> None:
 def test_the_table_tells_objects_without_points_from_objects_without_vibration(walled: Opened) -> None:
     ceiling = walled.page.locator("tbody tr", has_text="ceiling")
     assert ceiling.locator("td").nth(5).inner_text() == "not on the map"
+    assert "nothing arrives, or not on the map" in walled.page.locator("#legend").inner_text()
 
 
 def test_source_named_all_is_listed_separately(walled: Opened) -> None:

@@ -1,4 +1,4 @@
-// The legend: levels of the felt map with the threshold of touch and the colour of "nothing arrives"; widths of contacts.
+// The legend: levels of the felt map with the threshold of touch and the colour of all other surfaces; widths of contacts.
 
 import { NOTHING, colourAt, cssColour } from "./colour_scales.js";
 import { CLASSES } from "./contact_lines.js";
@@ -6,7 +6,9 @@ import { h, replaceChildren } from "./dom.js";
 
 const STEPS = 24;
 
-export function makeLegend(element, felt, store) {
+export function makeLegend(element, { felt, objects }, store) {
+  const onMap = new Set(felt.patches.map((patch) => patch.object));
+  const grey = objects.every(({ id }) => onMap.has(id)) ? "nothing arrives" : "nothing arrives, or not on the map";
   const show = () => {
     const isFelt = store.get("show") === "felt";
     element.hidden = !isFelt && !store.get("contacts");
@@ -26,7 +28,7 @@ export function makeLegend(element, felt, store) {
       isFelt && [
         h("div", { class: "legend-title" }, "Level over the threshold of touch [dB]"),
         h("div", { class: "legend-scale" }, bar, ticks),
-        h("div", {}, square, "nothing arrives. Below 0 dB: not felt."),
+        h("div", {}, square, `${grey}. Below 0 dB: not felt.`),
       ],
       store.get("contacts") && h("div", { class: "legend-contacts" }, "Contacts, strongest source:", CLASSES.map(lineOf)),
     );

@@ -57,7 +57,7 @@ function start(report) {
   const panel = makePanel({ element: one("#panel"), report, felt, store, corrections, onFocus });
   const tables = makeTableViews({ element: one("#tables"), report, felt, store, onFocus });
   makeToolbar(one("#toolbar"), report, store);
-  makeLegend(one("#legend"), report.felt, store);
+  makeLegend(one("#legend"), report, store);
   const view = makeSceneView({ canvas: one("#canvas"), layer: one("#labels"), report, felt, store, onHover: showTip, onFirstFrame: ready });
   isMade = true;
   showSaving();
