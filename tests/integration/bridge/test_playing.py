@@ -104,6 +104,29 @@ def test_several_watch_and_one_plays(bridge: Bridge) -> None:
         assert first.hear(lambda one: one["type"] == "state")["is"] == "ended"
 
 
+def test_another_session_takes_the_place_of_a_watched_one(bridge: Bridge) -> None:
+    server = bridge()
+    with Client(server.url) as one, Client(server.url) as other, Client(server.url) as watcher:
+        sessions = [player.play(bundle="desk.bundle", moving=[])["session"] for player in (one, other)]
+        for session in sessions:
+            assert watcher.ask("watch", session=session)["session"] == session
+        one.socket.send(one.frame(1, 0.0, poses(), [ON_TABLE]))
+        one.next_gains()
+        other.socket.send(other.frame(1, 7.0, poses(), []))
+        assert watcher.next_gains().time_s == 7.0
+        with pytest.raises(Refused, match="no session"):
+            watcher.ask("watch", session="c2f1a09b")
+        other.socket.send(other.frame(2, 8.0, poses(), []))
+        assert watcher.next_gains().time_s == 8.0  # a refused request changes nothing
+        watcher.play(bundle="desk.bundle", moving=[])
+        with pytest.raises(Refused, match="leave"):
+            watcher.ask("watch", session=sessions[0])
+        other.socket.send(other.frame(3, 9.0, poses(), []))
+        other.ask("stats")
+        watcher.socket.send(watcher.frame(1, 1.0, poses(), [ON_TABLE]))
+        assert watcher.next_gains().time_s == 1.0
+
+
 def test_states_levels_and_pauses(bridge: Bridge) -> None:
     with Client(bridge().url) as client:
         client.play(bundle="desk.bundle", moving=[])
