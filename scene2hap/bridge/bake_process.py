@@ -14,6 +14,7 @@ from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
 from scene2hap.bundle import HapticBundle
+from scene2hap.common import checks
 from scene2hap.errors import Scene2HapError
 from scene2hap.llm.wrappers import is_remote
 from scene2hap.scene.capture import capture_images
@@ -25,6 +26,7 @@ from scene2hap.scene.snapshot import SceneSnapshot
 
 def main() -> None:
     """Bake the request on standard input."""
+    checks.speak_json()  # the client reads the errors
     answers = sys.stdout
     sys.stdout = sys.stderr  # so that a plug-in's prints do not mix with the answers
 
