@@ -47,15 +47,14 @@ def floats(name: str, value: object, unit: str, *, error: type[Scene2HapError]) 
 
 def _require_numbers(rows: Sequence[Any]) -> None:
     """Raise a TypeError if nested lists are ragged, or hold None or True, which NumPy takes for NaN and 1."""
-    while rows and isinstance(rows[0], list | tuple):
-        if not all(isinstance(row, list | tuple) for row in rows):
-            return  # NumPy joins lists and arrays
+    while rows and all(isinstance(row, list | tuple) for row in rows):
         if len({*map(len, rows)}) > 1:
             raise TypeError(_RAGGED)
         rows = [*chain.from_iterable(rows)]
-    for kind in {*map(type, rows)} - {float, int}:
-        if issubclass(kind, list | tuple):
-            raise TypeError(_RAGGED)
+    kinds = {*map(type, rows)}
+    if kinds & {list, tuple} and kinds <= {list, tuple, float, int}:  # NumPy joins lists and arrays
+        raise TypeError(_RAGGED)
+    for kind in kinds - {float, int}:
         if issubclass(kind, bool | np.bool_ | str | bytes | NoneType | dict):
             raise TypeError(f"it has {checks.described(next(item for item in rows if type(item) is kind))}")
 
