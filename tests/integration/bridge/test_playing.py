@@ -14,6 +14,7 @@ import pytest
 from bridge_client import Client, Refused, __file__ as game
 from scene2hap import HapticBundle, HapticSession, Pose, Touch, bake_object
 from scene2hap.bridge import BridgeServer
+from scene2hap.cli import main
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
 from scene2hap.testing import check_bridge_client
 from serial_bench import eventually
@@ -32,6 +33,33 @@ def test_the_game_of_the_protocol_page() -> None:
     found = check_bridge_client([sys.executable, "-W", "error", game], n_frames=60)
     assert (found.n_frames, found.n_resumed) == (60, 1)
     assert found.worst < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("program", "says"),
+    [
+        ("raise SystemExit(3)", "the client ended with status 3"),
+        ("pass", "the client has not written gains.csv"),
+        ("write('')", "the lines lack 600 of 600 frames, the first with sequence 1"),
+        ("write('1,0.5,nan')", "a line of gains.csv is '1,0.5,nan'; it must be a sequence and gains"),
+        ("write(' '.join(f'{i},0' for i in range(600, 0, -1)))", "the lines are not in the order of their sequences"),
+        ("write(' '.join(f'{i or 1},0' for i in range(601)))", "601 lines are written for 600 frames"),
+    ],
+)
+def test_a_client_that_fails_the_check_learns_why(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], program: str, says: str
+) -> None:
+    file = tmp_path / "client.py"
+    head = "import os, pathlib\nwrite = pathlib.Path(os.environ['SCENE2HAP_OUT']).write_text\n"
+    file.write_text(head + program)
+    assert main(["bridge", "--check", f"{sys.executable} {file}"]) == 1
+    said = " ".join(capsys.readouterr().err.split())
+    assert f"the client fails the check: {says}" in said
+
+
+def test_a_command_that_does_not_start_is_no_traceback(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bridge", "--check", "no-such-client"]) == 1
+    assert "--check is 'no-such-client', which cannot be started" in " ".join(capsys.readouterr().err.split())
 
 
 def test_no_answer_is_lost_with_frames_in_flight() -> None:
