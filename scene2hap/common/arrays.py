@@ -47,11 +47,10 @@ def floats(name: str, value: object, unit: str, *, error: type[Scene2HapError]) 
 
 def _require_numbers(rows: Sequence[Any]) -> None:
     """Raise a TypeError if nested lists are ragged, or hold None or True, which NumPy takes for NaN and 1."""
-    while rows and all(isinstance(row, list | tuple) for row in rows):
+    while (kinds := {*map(type, rows)}) and kinds <= {list, tuple}:
         if len({*map(len, rows)}) > 1:
             raise TypeError(_RAGGED)
         rows = [*chain.from_iterable(rows)]
-    kinds = {*map(type, rows)}
     if kinds & {list, tuple} and kinds <= {list, tuple, float, int}:  # NumPy joins lists and arrays
         raise TypeError(_RAGGED)
     for kind in kinds - {float, int}:
