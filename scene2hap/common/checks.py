@@ -46,7 +46,10 @@ _speaks_json: ContextVar[bool] = ContextVar("speaks_json", default=False)
 
 
 def speak_json() -> None:
-    """Write values in the messages of this task or thread as JSON: a client that sent null knows no None."""
+    """Write values in the messages of this task or thread as JSON: a client that sent null knows no None.
+
+    Texts keep the quotes of the sentences around them.
+    """
     _speaks_json.set(True)
 
 
@@ -64,7 +67,7 @@ def represented(value: object) -> str:
     Credentials and queries of addresses are masked, and keys of OpenAI, since a key may be given in a wrong place.
     """
     try:
-        text = _in_json(value) if _speaks_json.get() else repr(value)
+        text = _in_json(value) if _speaks_json.get() and not isinstance(value, str) else repr(value)
     except Exception:  # an integer of more than 4300 digits, or any error from a foreign `__repr__`
         return f"a {type(value).__name__}"
     if "\n" in text:  # an array

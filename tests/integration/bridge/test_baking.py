@@ -45,7 +45,7 @@ def test_warnings_of_a_bake_reach_its_client(bridge: Bridge, desk: HapticBundle)
         job = client.bake(scene=scene)
         (warning,) = [one for one in client.heard if one["type"] == "warning"]
     assert warning["job"] == job
-    assert warning["message"] == "the field \"masss_kg\" of an object is ignored. Did you mean 'mass_kg'?"
+    assert warning["message"] == "the field 'masss_kg' of an object is ignored. Did you mean 'mass_kg'?"
 
 
 def test_a_scene_file_below_the_root(bridge: Bridge, root: Path, desk: HapticBundle) -> None:
@@ -78,7 +78,7 @@ def test_client_cannot_set_server_settings(bridge: Bridge, desk: HapticBundle) -
             ("cache_dir", "/tmp"),
             ("audio", {"kind": "library", "folder": "/"}),
         ):
-            with pytest.raises(Refused, match=f'"{name}" is no setting of a client.s bake'):
+            with pytest.raises(Refused, match=f"'{name}' is no setting of a client's bake"):
                 client.ask("bake", scene=scene, config={name: value})
         with pytest.raises(Refused, match="a file"):
             client.ask("bake", scene=scene, config={"actuator": "/etc/passwd.csv"})
