@@ -16,7 +16,7 @@ from importlib.metadata import EntryPoint, entry_points
 from inspect import isfunction, signature
 from typing import Any, Self
 
-from scene2hap.common.calls import misfit
+from scene2hap.common.calls import misfit, settings_misfit
 from scene2hap.common.checks import described, did_you_mean, represented, shown
 from scene2hap.errors import ConfigError, MissingExtra, UnknownPlugin
 
@@ -121,15 +121,15 @@ class PluginGroup:
         kind = settings.pop("kind", None)
         if not isinstance(kind, str):
             raise ConfigError(
-                f"{self.name}: {shown(spec)} names no kind; write {{'kind': ..., and its settings}}. "
+                f"{self.name}: {shown(spec)} names no kind; write a 'kind', and its settings. "
                 f"Known: {', '.join(self.kinds())}."
             )
         factory = self.load(kind)
         try:
             return factory(**settings)
         except TypeError as cause:
-            reason = (misfit(factory, (), settings) or str(cause)).removesuffix(".")
-            raise ConfigError(f"{self.name} kind {kind!r} does not take {shown(settings)}: {reason}.") from cause
+            reason = settings_misfit(factory, settings) or f"{cause}."
+            raise ConfigError(f"{self.name} kind {kind!r} does not take {shown(settings)}: {reason}") from cause
 
     def _ready_made(self, given: object) -> object:
         if isinstance(given, type):

@@ -229,7 +229,7 @@ export class Scene2HapClient extends EventTarget {
 
   /** @type {any} */ #socket = null;
   #isOnline = false; // hello was answered
-  #isWanted = false; // connect was called, neither leave nor close
+  #isWanted = false; // connect was called, and close was not
   #online = deferred(); // of the welcome of this connection or the next
   /** @type {any} */ #timer;
   #wait_s = FIRST_WAIT_S;
@@ -305,14 +305,17 @@ export class Scene2HapClient extends EventTarget {
     return this.#online.promise;
   }
 
-  /** End the session, then the connection. */
+  /** End the session, or stop watching. The connection stays, for another `play`; `close` ends it. */
   leave() {
-    const left = this.#isOnline && this.#order ? this.request({ type: "leave" }) : Promise.resolve();
-    this.#isPlaying = false;
-    return left.catch(() => {}).then(() => this.close());
+    const left = this.#isOnline && this.#played ? this.request({ type: "leave" }) : Promise.resolve();
+    this.#forget();
+    return left.then(
+      () => {},
+      () => {}, // the connection was lost, which is an event as well
+    );
   }
 
-  /** Close the connection. The server keeps the session for `keep_s`, but this client forgets it. */
+  /** Close the connection. The server keeps a session for `keep_s` unless you `leave` it before. */
   close() {
     this.#isWanted = false;
     this.#forget();
@@ -476,14 +479,14 @@ export class Scene2HapClient extends EventTarget {
   }
 
   /**
-   * Play a job or a bundle; from then on `sendFrame`. For another level call `leave` and `connect` before.
+   * Play a job or a bundle; from then on `sendFrame`. For another level call `leave` before.
    *
    * @param {{job?: number, bundle?: string, scene?: SceneJson, session?: object, user?: any, hands?: string[],
    *   moving?: string[], frames?: "newest" | "every", keep_s?: number, use_sink?: boolean}} request
    * @returns {Promise<Order>}
    */
   play(request) {
-    if (this.#hasSession) return this.#refuse("play");
+    if (this.#isPlaying) return this.#refuse("play");
     this.#forget();
     this.#played = { ...request, type: "play" };
     this.#learnPoses(request.scene);
@@ -491,29 +494,25 @@ export class Scene2HapClient extends EventTarget {
   }
 
   /**
-   * Get the gains of a session that another client plays.
+   * Get the gains of a session that another client plays, in place of one that was watched before.
    *
    * @param {{session: string}} request
    * @returns {Promise<Order>}
    */
   watch({ session }) {
-    if (this.#hasSession) return this.#refuse("watch");
+    if (this.#isPlaying) return this.#refuse("watch");
     this.#forget();
     this.#played = { type: "watch", session };
     return handled(this.#askUntilHeard(this.#played));
   }
 
-  get #hasSession() {
-    return this.#isPlaying || (this.#isOnline && this.#order !== null && this.#played.type === "watch");
-  }
-
   /** The server would refuse it too, but this side would have forgotten its session by then. */
   #refuse(type) {
-    const problem = `${type} was not sent: this connection has a session. Call leave, then connect again.`;
+    const problem = `${type} was not sent: this connection plays a session. Call leave first.`;
     return handled(Promise.reject(this.#fail("BridgeError", problem)));
   }
 
-  /** Forget the last session, so that a new connection does not resume it. */
+  /** Forget the last session, so that a new connection does not resume it; gains that still come are not felt. */
   #forget() {
     this.#order = this.#played = null;
     this.#isPlaying = false;
@@ -772,6 +771,7 @@ export class Scene2HapClient extends EventTarget {
     const request = this.#requests.get(re);
     this.#requests.delete(re);
     if (type === "playing" || type === "watching" || type === "order") this.#takeOrder(message);
+    if (type === "left") [this.#order, this.#isPlaying] = [null, false]; // `playing` may have come since `leave`
     if (type === "baking" && request) {
       this.#jobs.set(job, request.answer); // `bake` resolves with `baked`
     } else if (type === "error") {
@@ -806,6 +806,7 @@ export class Scene2HapClient extends EventTarget {
   }
 
   #takeGains(gains) {
+    if (this.#order === null) return; // of a session that was left
     const order = this.#layouts.get(gains.layout);
     const isKnown = order && order.hands.length === gains.n_hands && order.sources.length === gains.n_sources;
     if (!isKnown) {

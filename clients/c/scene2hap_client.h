@@ -156,7 +156,7 @@ typedef struct s2h_play_settings {
  * s2h_leave first, as for another level. */
 uint32_t s2h_play(s2h_client *client, const s2h_play_settings *play);
 
-/* Get the gains of a session that another client plays. */
+/* Get the gains of a session that another client plays, in place of one that was watched before. */
 uint32_t s2h_watch(s2h_client *client, const char *session);
 
 /* End the session; the event S2H_LEFT follows. */
@@ -2409,12 +2409,12 @@ static void s2h__write_ids(s2h_writer *writer, const char *key, const char *cons
   s2h_write_end(writer, ']');
 }
 
-/* Want a session, in place of one that is wanted but not active. */
+/* Want a session, in place of one that is watched, or wanted but not active. */
 static uint32_t s2h__want_session(s2h_client *c, const char *type, s2h_writer *writer, uint32_t job,
                                   bool needs_bake) {
   uint32_t id;
-  if (c->state == S2H__ONLINE && c->play_phase == S2H__ACTIVE) { /* the server would refuse it */
-    s2h__note_error(c, "BridgeError", 0, "%s was not sent: this connection has a session; call s2h_leave first.", type);
+  if (s2h_is_playing(c)) { /* the server would refuse it */
+    s2h__note_error(c, "BridgeError", 0, "%s was not sent: this connection plays; call s2h_leave first.", type);
     s2h_writer_free(writer);
     return 0;
   }

@@ -17,6 +17,8 @@ namespace Scene2Hap
         Playing,
         /// <summary>The server refuses this client, as for a wrong token. Connect tries once more.</summary>
         Failed,
+        /// <summary>Gains come of a session that another client plays.</summary>
+        Watching,
     }
 
     /// <summary>What to play, and how. Fields that are null are the server's choice.</summary>
@@ -66,7 +68,8 @@ namespace Scene2Hap
         // What the game wants; done again whenever the server has forgotten it.
         JsonText bake;
         PlayOptions play;
-        bool mustBake, mustFollow, isBaking, isStarting; // isStarting: `play` or `resume` is under way
+        string watched; // id of a session of another client
+        bool mustBake, mustFollow, isBaking, isStarting; // isStarting: `play`, `resume` or `watch` is under way
         long bakeId, bakingJob = -1; // -1: not known yet
         long job = -1; // of the wanted bake, once it is done
         bool isJobOld; // of an earlier connection: a server that was restarted does not know it
@@ -96,7 +99,7 @@ namespace Scene2Hap
 
         /// <summary>Requests that are sent again by themselves after a lost connection, or need not be, unless they came
         /// by Request.</summary>
-        static readonly HashSet<string> sentAgain = new HashSet<string> { "bake", "follow", "play", "resume", "leave" };
+        static readonly HashSet<string> sentAgain = new HashSet<string> { "bake", "follow", "play", "resume", "watch", "leave" };
         static readonly string[] ownTypes = { "hello", "play", "resume", "watch", "leave" };
 
         sealed class Pending
@@ -116,8 +119,8 @@ namespace Scene2Hap
         public event Action<Json> Progress;
         /// <summary>A bake ended: job, objects.</summary>
         public event Action<Json> Baked;
-        /// <summary>A session began, at first or because the server had forgotten the one before. Look up indices, and
-        /// set sources and levels here.</summary>
+        /// <summary>A session began, at first or because the server had forgotten the one before, or is watched. Look up
+        /// indices, and set sources and levels here.</summary>
         public event Action Started;
         /// <summary>The session goes on after a lost connection.</summary>
         public event Action Resumed;
@@ -128,10 +131,15 @@ namespace Scene2Hap
         /// <summary>Something landed or was struck, and a hand felt it: object, with_object,
         /// point_m, frequency_hz, felt.</summary>
         public event Action<Json> Impact;
+        /// <summary>What became of the watched session: "playing", "waiting" for its player, or "ended".</summary>
+        public event Action<string> WatchedState;
         /// <summary>The session ended after Leave.</summary>
         public event Action Left;
 
         public ClientState State { get; private set; }
+
+        /// <summary>The id of the session that this client plays, for others that watch it; null without one.</summary>
+        public string SessionId { get { return session; } }
 
         /// <summary>What the server said of itself: server, max_message_bytes, sink, models and more.</summary>
         public Json Welcome { get; private set; }
@@ -153,6 +161,13 @@ namespace Scene2Hap
         {
             if (State != ClientState.Closed && State != ClientState.Failed)
                 return;
+            if (url.Scheme != "ws")
+            {
+                State = ClientState.Failed;
+                Report(url + " cannot be used: its address must begin with ws://. This client has no TLS; let a program "
+                    + "on this machine, such as stunnel, add it.");
+                return;
+            }
             State = ClientState.Connecting;
             connection = new Connection(url, hello);
         }
@@ -332,7 +347,8 @@ namespace Scene2Hap
 
         bool IsFresh()
         {
-            return hasGains && State == ClientState.Playing && SecondsSince(gainsAt) <= watchdogS;
+            bool isOn = State == ClientState.Playing || State == ClientState.Watching;
+            return hasGains && isOn && SecondsSince(gainsAt) <= watchdogS;
         }
 
         static double SecondsSince(long ticks)
@@ -405,12 +421,41 @@ namespace Scene2Hap
                 return Refuse("play needs a bundle, or a Bake before it.");
             if (double.IsNaN(options.KeepS) || double.IsInfinity(options.KeepS))
                 return Refuse("KeepS must be finite; give 0 to 600.");
-            if (State == ClientState.Playing || isStarting)
-                return Refuse("play is under way; call Leave and wait for Left before another.");
+            if (IsUnderWay())
+                return false;
+            StopWatching();
             play = options;
             mustBake |= options.Bundle == null && job < 0 && !isBaking;
             Advance();
             return true;
+        }
+
+        /// <summary>Get the gains of a session that another client plays, by its SessionId, as soon as there is a
+        /// connection. It takes the place of one that was watched before.</summary>
+        public bool Watch(string sessionId)
+        {
+            if (IsUnderWay())
+                return false;
+            StopWatching();
+            play = null;
+            watched = sessionId;
+            Advance();
+            return true;
+        }
+
+        bool IsUnderWay()
+        {
+            return (State == ClientState.Playing || isStarting)
+                && !Refuse("a session is under way; call Leave and wait for Left before another.");
+        }
+
+        /// <summary>Forget the watched session. The server does so when another one begins.</summary>
+        void StopWatching()
+        {
+            watched = null;
+            hasGains = false;
+            if (State == ClientState.Watching)
+                State = ClientState.Ready;
         }
 
         public bool SetSource(
@@ -480,11 +525,13 @@ namespace Scene2Hap
         /// <summary>Ask for counters of the session and its frames.</summary>
         public bool Stats(Action<Json> answered) { return Send("stats", Begun("stats"), answered); }
 
-        /// <summary>End the session. The connection stays; Dispose closes it.</summary>
+        /// <summary>End the session, or stop watching. The connection stays; Dispose closes it.</summary>
         public bool Leave()
         {
+            bool isOn = session != null || State == ClientState.Watching;
             play = null;
-            return session != null && Send("leave", Begun("leave"));
+            StopWatching();
+            return isOn && Send("leave", Begun("leave"));
         }
 
         /// <summary>Send any request of the protocol that has no method here, such as "cancel". `answered` gets the
@@ -492,7 +539,7 @@ namespace Scene2Hap
         public bool Request(string type, JsonText fields, Action<Json> answered = null)
         {
             if (Array.IndexOf(ownTypes, type) >= 0)
-                return Refuse(type + " is the client's own request; call Play or Leave.");
+                return Refuse(type + " is the client's own request; call Play, Watch or Leave.");
             JsonText begun = Begun(type);
             if (fields != null)
                 begun.AddFields(fields);
@@ -571,16 +618,18 @@ namespace Scene2Hap
         /// <summary>Send the next requests on the way to what the game wants.</summary>
         void Advance()
         {
-            if (State != ClientState.Ready && State != ClientState.Playing)
+            if (State != ClientState.Ready && State != ClientState.Playing && State != ClientState.Watching)
                 return;
             if (mustBake && bake != null)
                 SendBake();
             else if (mustFollow)
                 mustFollow = !Send("follow", Begun("follow").Add("job", bakingJob));
-            if (State == ClientState.Playing || isStarting)
+            if (State != ClientState.Ready || isStarting)
                 return;
             if (session != null)
                 isStarting = Send("resume", Begun("resume").Add("session", session).Add("key", keyText));
+            else if (watched != null)
+                isStarting = Send("watch", Begun("watch").Add("session", watched));
             else if (play != null && (play.Bundle != null || job >= 0))
                 SendPlay();
         }
@@ -725,8 +774,14 @@ namespace Scene2Hap
                 case "playing":
                     HandlePlaying(message, request);
                     break;
+                case "watching":
+                    HandleWatching(message, request);
+                    break;
+                case "state":
+                    HandleState(message["is"].AsText());
+                    break;
                 case "order":
-                    if (State == ClientState.Playing && ReadOrder(message))
+                    if ((State == ClientState.Playing || State == ClientState.Watching) && ReadOrder(message))
                         Raise(OrderChanged);
                     break;
                 case "impact":
@@ -758,8 +813,10 @@ namespace Scene2Hap
             bool isOfBake = failedType == "bake" && message["re"].AsCount() == bakeId;
             if (isBaking && (isOfBake || (failed >= 0 && failed == bakingJob)))
                 ForgetBake();
-            if (isPlay || isResume)
+            if (isPlay || isResume || failedType == "watch")
                 isStarting = false;
+            if (failedType == "watch")
+                watched = null;
             if (isResume)
                 EndSession();
             bool isJobGone = failedType == "follow"
@@ -789,7 +846,7 @@ namespace Scene2Hap
             hasGains = false;
             unansweredSince = 0;
             connection.EndFrames();
-            if (State == ClientState.Playing)
+            if (State == ClientState.Playing || State == ClientState.Watching)
                 State = ClientState.Ready;
         }
 
@@ -834,6 +891,29 @@ namespace Scene2Hap
             nUnposed = nMoving;
             connection.BeginFrames(play.EveryFrame);
             Raise(Started);
+        }
+
+        void HandleWatching(Json message, Pending request)
+        {
+            if (State != ClientState.Ready || request == null || request.Type != "watch" || !ReadOrder(message))
+                return;
+            isStarting = false;
+            State = ClientState.Watching;
+            hasGains = false;
+            if (watched == null) // Leave was called meanwhile
+                Leave();
+            else
+                Raise(Started);
+        }
+
+        void HandleState(string now)
+        {
+            if (State != ClientState.Watching)
+                return;
+            if (now == "ended")
+                StopWatching();
+            if (WatchedState != null)
+                WatchedState(now);
         }
 
         /// <summary>Take over objects, hands and sources. Returns whether they are whole; else raises Error.</summary>
@@ -941,7 +1021,8 @@ namespace Scene2Hap
 
         void HandleGains(ConnectionEvent one)
         {
-            if (State != ClientState.Playing)
+            bool isPlaying = State == ClientState.Playing;
+            if (!isPlaying && State != ClientState.Watching)
                 return;
             string problem = incoming.Read(one.Bytes, one.Length);
             if (problem != null)
@@ -950,7 +1031,9 @@ namespace Scene2Hap
                 return;
             }
             // Those of an older layout are of no use any more. After a resume the server may repeat the last ones.
-            if (incoming.Layout != layout || incoming.Sequence > sequence || incoming.Sequence <= lastGains)
+            if (incoming.Layout != layout)
+                return;
+            if (isPlaying && (incoming.Sequence > sequence || incoming.Sequence <= lastGains))
                 return;
             if (incoming.HandCount != hands.Length || incoming.SourceCount != sources.Length)
             {
@@ -960,11 +1043,14 @@ namespace Scene2Hap
             Gains before = gains;
             gains = incoming;
             incoming = before;
-            lastGains = gains.Sequence;
             hasGains = true;
             gainsAt = one.ArrivedAt;
-            unansweredSince = lastGains == sequence ? 0 : Stopwatch.GetTimestamp();
-            connection.Answered(lastGains);
+            if (isPlaying)
+            {
+                lastGains = gains.Sequence;
+                unansweredSince = lastGains == sequence ? 0 : Stopwatch.GetTimestamp();
+                connection.Answered(lastGains);
+            }
             if (GainsArrived != null)
                 GainsArrived(gains);
         }

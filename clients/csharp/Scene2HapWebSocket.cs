@@ -37,8 +37,6 @@ namespace Scene2Hap
         /// the argument that of the answer.</summary>
         public void Connect(Uri url, int answerMs)
         {
-            if (url.Scheme != "ws")
-                throw new IOException("its address must begin with ws://");
             nMasksUsed = masks.Length;
             ConnectToAny(Dns.GetHostAddresses(url.DnsSafeHost), url.Port < 0 ? 80 : url.Port);
             socket.NoDelay = true; // a frame waits for no other

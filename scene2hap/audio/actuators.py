@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.audio.clip import Samples
 from scene2hap.common import checks
-from scene2hap.common.calls import misfit
+from scene2hap.common.calls import settings_misfit
 from scene2hap.common.csv_tables import csv_reader, with_point
 from scene2hap.common.text_files import read_small_text
 from scene2hap.errors import ConfigError, reason_of
@@ -147,7 +147,7 @@ def _from_fields(fields: Mapping[str, Any]) -> ActuatorProfile:
         profile = actuator_profile(base)
         return ActuatorProfile(**{**vars(profile), **known})
     except TypeError as cause:
-        reason = misfit(ActuatorProfile, (), known) or f"{cause}."
+        reason = settings_misfit(ActuatorProfile, known) or f"{cause}."
         raise ConfigError(f"actuator does not take {checks.shown(fields)}: {reason}") from cause
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import AudioError
 
@@ -152,7 +153,7 @@ def _is_frozen(samples: object) -> bool:
 def _as_float32(samples: object) -> Samples:
     """Return a copy as float32; too large values become infinite. Raises: AudioError: they are not numbers, or they are
     whole numbers of a file, such as 16384 of int16."""
-    table = checks.floats("samples", samples, "-", error=AudioError)
+    table = floats("samples", samples, "-", error=AudioError)
     kind = samples.dtype if isinstance(samples, np.ndarray) else None
     if kind is not None and kind.kind in "iu" and table.size and max(table.max(), -table.min()) > 1.0:
         how = f"samples / {2 ** (8 * kind.itemsize - 1)}" if kind.kind == "i" else "(samples - 128) / 128"

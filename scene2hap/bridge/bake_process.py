@@ -1,19 +1,21 @@
 """A bake in a separate process, so that it can be cancelled and does not slow down running sessions.
 
 Reads one JSON object from standard input (`scene`, `is_sent`, `target`, `config`, `user_prompt`, `pictures`). Writes
-one JSON object per line: `progress` with stage, item, done and of; at the end `objects`, or `error` with kind and
-message.
+one JSON object per line: `progress` with stage, item, done and of; `warning` with its text; at the end `objects`, or
+`error` with kind and message.
 """
 
 from __future__ import annotations
 
 import json
 import sys
+import warnings
 from pathlib import Path
 from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
 from scene2hap.bundle import HapticBundle
+from scene2hap.common import checks
 from scene2hap.errors import Scene2HapError
 from scene2hap.llm.wrappers import is_remote
 from scene2hap.scene.capture import capture_images
@@ -25,12 +27,20 @@ from scene2hap.scene.snapshot import SceneSnapshot
 
 def main() -> None:
     """Bake the request on standard input."""
+    checks.speak_json()  # the client reads the errors
     answers = sys.stdout
     sys.stdout = sys.stderr  # so that a plug-in's prints do not mix with the answers
 
     def tell(document: dict[str, Any]) -> None:
         print(json.dumps(document), file=answers, flush=True)
 
+    def show(message: Warning | str, category: type[Warning], *rest: Any, **more: Any) -> None:
+        if issubclass(category, UserWarning):
+            tell({"warning": str(message)})
+        else:  # of other libraries
+            shown(message, category, *rest, **more)
+
+    shown, warnings.showwarning = warnings.showwarning, show
     wanted = json.load(sys.stdin)
     try:
         bundle = baked(wanted, lambda *what: tell({"progress": what}))

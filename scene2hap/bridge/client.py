@@ -59,6 +59,15 @@ class Client:
             self._gains = message
         self._has_work.set()
 
+    def watch(self, hosted: HostedSession | None) -> None:
+        """Watch a session, or none, in place of the one before."""
+        if self.watched is not None:
+            self.watched.watchers.discard(self)
+            self._gains = None  # in the order of the other session, they would be read as those of this one
+        self.watched = hosted
+        if hosted is not None:
+            hosted.watchers.add(self)
+
     def give_up(self) -> None:
         """Stop playing, since the session continues over another connection."""
         self.hosted = None

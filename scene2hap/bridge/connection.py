@@ -103,8 +103,7 @@ class Connection:
 
     async def _leave(self) -> None:
         client = self.client
-        if client.watched is not None:
-            client.watched.watchers.discard(client)
+        client.watch(None)
         if client.hosted is not None:
             await client.hosted.lose(client)
         client.pictures.clear()

@@ -133,6 +133,8 @@ class Jobs:
                     self._tells[job](
                         {"type": "progress", "job": job, "stage": stage, "item": item, "done": done, "of": of}
                     )
+                elif "warning" in last:
+                    self._tells[job]({"type": "warning", "job": job, "message": last["warning"]})
             await process.wait()
             if "objects" in last:
                 answer = {"type": "baked", "job": job, "objects": last["objects"]}

@@ -7,13 +7,15 @@ from typing import Annotated, Any, ClassVar, Literal, get_args
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
 from scene2hap.common import checks
+from scene2hap.common.json_fields import NUMBER, Flag, Real, Whole
+from scene2hap.common.json_texts import parse_json
 from scene2hap.errors import BridgeError
 
 VERSION = 1
 
 Name = Annotated[str, Field(min_length=1, max_length=1000)]
 RelativePath = Annotated[str, Field(min_length=1, max_length=4096)]
-Number = Annotated[float, Field(allow_inf_nan=False)]
+Number = Annotated[Real, Field(allow_inf_nan=False)]
 Point = tuple[Number, Number, Number]
 Document = dict[str, Any]
 
@@ -24,14 +26,14 @@ class Request(BaseModel):
     model_config: ClassVar[ConfigDict] = ConfigDict(extra="forbid", frozen=True, hide_input_in_errors=True)
 
     type: str
-    id: int | None = Field(default=None, ge=0, lt=2**53)
+    id: Annotated[int, Field(ge=0, lt=2**53), NUMBER] | None = None
 
 
 class Hello(Request):
     """The first message."""
 
     type: Literal["hello"]
-    version: int
+    version: Whole
     client: Name
     token: str | None = Field(default=None, max_length=1000)
 
@@ -44,7 +46,7 @@ class Bake(Request):
     path: RelativePath | None = None
     config: Document = {}
     user_prompt: str = Field(default="", max_length=100_000)
-    pictures: bool = False
+    pictures: Flag = False
     save: RelativePath | None = None
 
 
@@ -52,14 +54,14 @@ class Cancel(Request):
     """End a bake."""
 
     type: Literal["cancel"]
-    job: int
+    job: Whole
 
 
 class Follow(Request):
     """Receive the messages of a bake that another connection began."""
 
     type: Literal["follow"]
-    job: int
+    job: Whole
 
 
 class Play(Request):
@@ -67,15 +69,15 @@ class Play(Request):
 
     type: Literal["play"]
     bundle: RelativePath | None = None
-    job: int | None = None
+    job: Whole | None = None
     scene: Document | None = None
     session: Document = {}
     user: Document | None = None
     hands: list[Name] = Field(default=["left", "right"], min_length=1, max_length=64)
     moving: list[Name] | None = None
     frames: Literal["newest", "every"] = "newest"
-    keep_s: float = Field(default=30.0, ge=0.0, le=600.0)
-    use_sink: bool = True
+    keep_s: Number = Field(default=30.0, ge=0.0, le=600.0)
+    use_sink: Flag = True
 
 
 class Resume(Request):
@@ -105,10 +107,10 @@ class SetSource(Request):
 
     type: Literal["set_source"]
     source: Name
-    on: bool | None = None
+    on: Flag | None = None
     state: str | None = None
     gain_db: Number | None = None
-    mute: bool | None = None
+    mute: Flag | None = None
 
 
 class SetUser(Request):
@@ -116,7 +118,7 @@ class SetUser(Request):
 
     type: Literal["set_user"]
     gain_db: Number | None = None
-    mute: bool | None = None
+    mute: Flag | None = None
     profile: Document | None = None
 
 
@@ -146,7 +148,7 @@ class Spawn(Request):
     position_m: Point
     rotation_xyzw: tuple[Number, Number, Number, Number] = (0.0, 0.0, 0.0, 1.0)
     prefab: RelativePath | None = None
-    job: int | None = None
+    job: Whole | None = None
 
 
 class Remove(Request):
@@ -194,7 +196,7 @@ _REQUESTS: tuple[type[Request], ...] = (
 MODELS: dict[str, type[Request]] = {get_args(model.model_fields["type"].annotation)[0]: model for model in _REQUESTS}
 """The requests by their type."""
 _document: TypeAdapter[Document] = TypeAdapter(Document)
-_id: TypeAdapter[int] = TypeAdapter(int)
+_id: TypeAdapter[int] = TypeAdapter(Whole)
 
 
 def read_document(text: str) -> Document:
@@ -202,8 +204,20 @@ def read_document(text: str) -> Document:
     try:
         return _document.validate_json(text)
     except ValidationError as cause:
-        reason = checks.first_problem(cause).reason
-        raise BridgeError(f"the message is no JSON object: {reason}. Send an object with a type.") from cause
+        raise BridgeError(f"the message is no JSON object: {_problem(text)}. Send an object with a type.") from cause
+
+
+def _problem(text: str) -> str:
+    """Return what is wrong in a text that pydantic, which is fast, has refused in words of its own."""
+    try:
+        found = parse_json(text)
+        if isinstance(found, dict):
+            return "its lists are nested too deeply, or a text of it has half of a surrogate pair"
+        return f"it is {checks.described(found)}"
+    except ValueError as cause:
+        return str(cause)
+    except RecursionError:
+        return "its lists and objects are nested too deeply"
 
 
 def request_id(document: Document) -> int | None:
@@ -229,5 +243,13 @@ def parse_request(document: Document) -> Request:
             near = checks.did_you_mean(problem.place, model.model_fields, f"It has {', '.join(model.model_fields)}.")
             raise BridgeError(f"{kind} has no field {checks.represented(problem.place)}. {near}") from cause
         raise BridgeError(
-            f"{problem.place} of {kind}: {problem.reason}. The page of the protocol has its fields."
+            f"{problem.place} of {kind}: {problem.reason}{_got(problem)}. The page of the protocol has its fields."
         ) from cause
+
+
+def _got(problem: checks.Problem) -> str:
+    """Return the wrong value for an error; of a list or an object only that it is one, since it may be long."""
+    if problem.kind == "missing":
+        return ""
+    given, name = problem.value, problem.location[-1]
+    return f", got {checks.described(given) if isinstance(given, dict | list) else checks.shown(given, name)}"

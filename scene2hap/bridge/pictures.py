@@ -12,6 +12,7 @@ from typing import Any
 
 from scene2hap.bridge.frames import decode_picture
 from scene2hap.common import checks
+from scene2hap.common.json_texts import parse_json
 from scene2hap.common.text_files import write_whole
 from scene2hap.errors import BridgeError, unwritable
 from scene2hap.scene.capture.given_pictures import INDEX, GivenPictures
@@ -50,7 +51,7 @@ class SentPictures:
         """
         text, file = decode_picture(message)
         try:
-            row = json.loads(text)
+            row = parse_json(text)
         except (ValueError, RecursionError) as cause:
             raise BridgeError(f"the text of a picture is no JSON: {cause}.") from cause
         if not isinstance(row, dict):

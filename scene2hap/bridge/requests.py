@@ -22,7 +22,7 @@ from scene2hap.bundle.folder_replacement import require_replaceable
 from scene2hap.common import checks
 from scene2hap.devices import SINKS
 from scene2hap.devices.protocol import ActuatorSink
-from scene2hap.errors import BridgeError
+from scene2hap.errors import BridgeError, BundleIncomplete
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -53,6 +53,7 @@ async def answer(request: messages.Request, client: Client, host: Host) -> Docum
             _require_free(client)
             hosted = host.hosted(request.session)
             order = await hosted.resume(client, request.key)
+            client.watch(None)
             client.hosted = hosted
             client.repeat(hosted.last_gains)
             return _playing(hosted, order, host)
@@ -152,6 +153,7 @@ async def _play(request: messages.Play, client: Client, host: Host) -> Document:
         host.give_sink_back()
         raise
     host.host(hosted, plays_sink=sink is not None)
+    client.watch(None)
     client.hosted = hosted
     if host.owns_process:
         await asyncio.to_thread(settle_garbage)
@@ -186,16 +188,13 @@ async def _watch(request: messages.Watch, client: Client, host: Host) -> Documen
     _require_free(client)
     hosted = host.hosted(request.session)
     order = await hosted.run(hosted.played.order)
-    hosted.watchers.add(client)
-    client.watched = hosted
+    client.watch(hosted)
     return {"type": "watching", "session": hosted.id, **order}
 
 
 async def _leave(client: Client) -> Document:
-    hosted, watched = client.hosted, client.watched
-    client.hosted = client.watched = None
-    if watched is not None:
-        watched.watchers.discard(client)
+    client.watch(None)
+    hosted, client.hosted = client.hosted, None
     if hosted is not None:
         hosted.player = None
         await hosted.close()
@@ -214,8 +213,9 @@ def _playing(hosted: HostedSession, order: Document, host: Host) -> Document:
 
 
 def _require_free(client: Client) -> None:
-    if client.hosted is not None or client.watched is not None:
-        raise BridgeError("this connection has a session already; send `leave` first, or open another connection.")
+    """Raise a BridgeError if a client plays. A session that it watches loses nothing if another takes its place."""
+    if client.hosted is not None:
+        raise BridgeError("this connection plays a session already; send `leave` first, or open another connection.")
 
 
 def _own(client: Client) -> HostedSession:
@@ -238,7 +238,13 @@ def _bundle_folder(path: str | None, job: int | None, kind: str, host: Host) -> 
     if (path is None) == (job is None):
         name = "prefab" if kind == "spawn" else "bundle"
         raise BridgeError(f"{kind} needs one of {name} and job; give one of them.")
-    return host.jobs.bundle(job) if job is not None else host.below_root(path or "")
+    if job is not None:
+        return host.jobs.bundle(job)
+    folder = host.below_root(path or "")
+    if not folder.is_dir():
+        near = checks.near_files(folder) or "`bake` with `save` writes one."
+        raise BundleIncomplete(f"there is no bundle {checks.represented(path)} below the bridge's root. {near}")
+    return folder
 
 
 def _one_object(row: Document, session: HapticSession) -> SceneObject:

@@ -194,10 +194,11 @@ class State(Answer):
 
 
 class Warned(Answer):
-    """A warning for the player."""
+    """A warning for the player, or about a bake."""
 
     type: Literal["warning"]
     message: str
+    job: int | None = None
 
 
 class Error(Answer):

@@ -109,6 +109,7 @@ class BridgeServer:
         return None
 
     async def _serve(self, socket: ServerConnection) -> None:
+        checks.speak_json()  # to this client alone: each connection has a task of its own
         if self._n_clients >= self.config.max_clients:
             await socket.close(TOO_MANY, f"there are {self.config.max_clients} clients already")
             return

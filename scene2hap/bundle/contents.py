@@ -72,5 +72,5 @@ def require_same_scene(scene: SceneSnapshot, bundle: BundleContents) -> None:
         raise UnknownObject(
             f"the bundle was baked for another scene: {scene.name!r} has no object {lacking[0]!r} ({len(lacking)} "
             f"of {len(baked)} are missing). {near}{' ' if near else ''}Give the scene that was baked, "
-            "bundle.snapshot, or bake this one."
+            "the `snapshot` of the bundle, or bake this one."
         )

@@ -20,7 +20,7 @@ from typing import Any
 from scene2hap.cli.console import Console
 from scene2hap.cli.given_spec import given_spec
 from scene2hap.common.settings import read_settings
-from scene2hap.errors import ConfigError
+from scene2hap.errors import BridgeError, ConfigError, reason_of
 
 TOKEN_VARIABLE = "SCENE2HAP_BRIDGE_TOKEN"
 
@@ -79,7 +79,12 @@ def _check(command: str, console: Console) -> dict[str, Any]:
         raise ConfigError("--check has no command; give the one that starts your client.")
     if Path(words[0]).suffix == ".py":
         raise ConfigError(f"--check is {command!r}; write 'python {command}'.")
-    found = check_bridge_client(words)
+    try:
+        found = check_bridge_client(words)
+    except OSError as cause:
+        raise ConfigError(f"--check is {command!r}, which cannot be started: {reason_of(cause)}.") from cause
+    except AssertionError as cause:
+        raise BridgeError(f"the client fails the check: {cause}.") from cause
     console.say(f"{found.n_frames} frames, {found.n_resumed} resumed; gains differ by at most {found.worst:.1e}")
     return {"frames": found.n_frames, "resumed": found.n_resumed, "worst": found.worst}
 

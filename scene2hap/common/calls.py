@@ -219,6 +219,20 @@ def misfit(function: Callable[..., Any], args: Sequence[object], kwargs: Mapping
     return ""
 
 
+def settings_misfit(factory: Callable[..., Any], settings: Mapping[str, object]) -> str:
+    """Return why a factory does not take settings, in words for a file or a client; empty if it takes them."""
+    if not misfit(factory, (), settings):
+        return ""
+    taken = inspect.signature(factory).parameters
+    there = f"There are {', '.join(taken)}."
+    unknown = next((name for name in settings if name not in taken), None)
+    if unknown is not None:
+        near = checks.did_you_mean(unknown, taken, there)
+        return f"there is no setting {checks.represented(unknown)}. {near}"
+    missing = (one.name for one in taken.values() if one.default is one.empty and one.name not in settings)
+    return f"the setting {next(missing, '')} is missing. {there}"
+
+
 class _Ellipsis:
     """A default value that is too long to be shown."""
 

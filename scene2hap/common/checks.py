@@ -5,10 +5,12 @@ Every message with value, unit, bound and next step is made here, so that all ha
 
 from __future__ import annotations
 
+import json
 import math
 import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from contextvars import ContextVar
 from itertools import islice
 from numbers import Real
 from pathlib import Path
@@ -17,8 +19,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast
 from scene2hap.errors import ConfigError, Scene2HapError
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
     from pydantic import ValidationError
 
 
@@ -42,6 +42,17 @@ def shown(value: object, name: object = "") -> str:
     return represented(value)
 
 
+_speaks_json: ContextVar[bool] = ContextVar("speaks_json", default=False)
+
+
+def speak_json() -> None:
+    """Write values in the messages of this task or thread as JSON: a client that sent null knows no None.
+
+    Texts keep the quotes of the sentences around them.
+    """
+    _speaks_json.set(True)
+
+
 _LONGEST_SHOWN = 200
 _LONGEST_CONTAINER_SHOWN = 1000
 
@@ -51,12 +62,12 @@ def _cut(text: str) -> str:
 
 
 def represented(value: object) -> str:
-    """Format `repr(value)` for an error message: shortened, or only the type if `repr` fails.
+    """Format `repr(value)`, or JSON, for an error message: shortened, or only the type if `repr` fails.
 
     Credentials and queries of addresses are masked, and keys of OpenAI, since a key may be given in a wrong place.
     """
     try:
-        text = repr(value)
+        text = _in_json(value) if _speaks_json.get() and not isinstance(value, str) else repr(value)
     except Exception:  # an integer of more than 4300 digits, or any error from a foreign `__repr__`
         return f"a {type(value).__name__}"
     if "\n" in text:  # an array
@@ -68,6 +79,13 @@ def represented(value: object) -> str:
     return _SECRET_PART.sub(lambda found: f"{found[1] or found[2] or ''}{MASK}", text)
 
 
+def _in_json(value: object) -> str:
+    try:
+        return json.dumps(value, ensure_ascii=False)
+    except TypeError:  # a value of our own
+        return repr(value)
+
+
 def described(value: object) -> str:
     """Describe a value of the wrong type, for the sentence "X is ...". Objects with fields are named by their type."""
     if isinstance(value, type):
@@ -76,7 +94,7 @@ def described(value: object) -> str:
         return represented(value)
     name = type(value).__name__
     if isinstance(value, dict) or (isinstance(value, tuple) and not hasattr(value, "_fields")):  # and their subclasses
-        name = "dict" if isinstance(value, dict) else "tuple"
+        name = ("object" if _speaks_json.get() else "dict") if isinstance(value, dict) else "tuple"
     return f"{'an' if name[0] in 'aeiouAEIOU' else 'a'} {name}"
 
 
@@ -237,28 +255,6 @@ def vector(
         number(f"{name}[{i}]", item, unit, above=above, at_least=at_least, error=error, hint=hint)
         for i, item in enumerate(items)
     )
-
-
-def floats(name: str, value: object, unit: str, *, error: type[Scene2HapError]) -> NDArray[np.float64]:
-    """Return `value` as an array of float64, without a copy if it is one. The caller checks shape and values.
-
-    Raises: `error`: not a table of real numbers, or some of them are masked.
-    """
-    import numpy as np
-
-    if type(value) is np.ndarray and value.dtype == np.float64:
-        return value
-    try:
-        found = np.asanyarray(value)
-        if found.dtype.kind not in "iufO":
-            raise TypeError(f"{found.dtype} is no type of real numbers")
-        if isinstance(found, np.ma.MaskedArray) and np.ma.is_masked(found):
-            raise TypeError("some of them are masked")
-        with np.errstate(over="ignore"):
-            return np.asarray(found, dtype=np.float64)
-    except Exception as cause:  # ragged, too many digits, or any error from a foreign type
-        reason = str(cause)[:_LONGEST_SHOWN] or type(cause).__name__
-        raise error(f"{name} is not a table of numbers{_in(unit)}: {reason}.") from cause
 
 
 def whole(

@@ -20,13 +20,13 @@ _MENDS: tuple[tuple[str, str], ...] = (
     (r"(?:True|False|None)\b", "write true, false and null in small letters, None as null"),
     (r"[+-]?\.\d|\+", "write a number as 0.5 or -0.5"),
     (r"(?<=\d,)\d", "write a number with a decimal point, as 0.5"),
-    (r"\Z", "the file ends before the last bracket is closed"),
+    (r"\Z", "the text ends before the last bracket is closed"),
 )
 """What stands at the place where a parser stops, after what (blanks removed), and what to do."""
 
 
 _MENDS_BY_MESSAGE = {
-    "Extra data": "the file goes on after its last bracket; remove the rest",
+    "Extra data": "the text goes on after its last bracket; remove the rest",
     "Unterminated string": "this text has no closing quote",
     "Invalid control character": "a text has no closing quote on its line, or holds a tab, which is written as \\t",
     "Invalid \\": 'write each backslash twice, as "C:\\\\sounds"',
@@ -45,6 +45,10 @@ def parse_json(text: str | bytes) -> Any:
         return json.loads(text, object_pairs_hook=_each_key_once)
     except json.JSONDecodeError as cause:
         raise ValueError(_problem(cause)) from cause
+    except ValueError as cause:
+        if str(cause).startswith("Exceeds the limit"):  # Python's words name a function of Python
+            raise ValueError("a number has thousands of digits; write fewer") from cause
+        raise
 
 
 def _each_key_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -70,7 +70,7 @@ class Settings(BaseModel):
         """Refuse True and False for a number: pydantic takes them for 1 and 0."""
         field = cls.model_fields[str(info.field_name)]
         if _holds_only_numbers(field.annotation) and _has_flag(value):
-            raise ValueError("it must be a number, neither True nor False")
+            raise ValueError("it must be a number, neither true nor false")
         return value
 
     @classmethod

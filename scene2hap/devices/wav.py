@@ -14,6 +14,7 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
 from scene2hap.common.printable import quoted
 from scene2hap.common.text_files import draft_path, path_in_c, put_in_place
+from scene2hap.common.warning import warn_of
 from scene2hap.devices.exclusive_use import claim, give_back
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
 from scene2hap.devices.whole_frames import PulledSink, WholeFrames
@@ -173,5 +174,11 @@ class WavSink(PulledSink):
 
 def _keep_header_current(file: soundfile.SoundFile) -> None:
     """Write the length into the header at each write: else the draft of a killed program seems to have 0 frames."""
-    set_update_header_auto = 0x1061  # of sndfile.h; soundfile has no method for it
-    soundfile._snd.sf_command(file._file, set_update_header_auto, soundfile._ffi.NULL, 1)
+    set_update_header_auto = 0x1061  # of sndfile.h; soundfile has no method for it, so that private names are used
+    try:
+        soundfile._snd.sf_command(file._file, set_update_header_auto, soundfile._ffi.NULL, 1)
+    except AttributeError:
+        warn_of(
+            f"soundfile {soundfile.__version__} lacks what keeps the header of an unfinished WAV file current: the "
+            "file of a program that is killed will seem empty. Install soundfile 0.14 to have it whole."
+        )

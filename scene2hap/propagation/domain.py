@@ -9,7 +9,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap.common import checks
+from scene2hap.common.arrays import floats
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation.plate import Plate, require_frequencies, require_plate
@@ -50,7 +50,7 @@ def as_frequencies(frequencies_hz: ArrayLike, *, positive_because: str = "") -> 
     Parameters: positive_because : why 0 Hz is an error; empty if 0 Hz is valid.
     Raises: ModelDomainError: another shape; a frequency below 0 or above 1e9 Hz, or 0 where 0 Hz is an error.
     """
-    f = np.atleast_1d(checks.floats("frequencies_hz", frequencies_hz, "Hz", error=ModelDomainError))
+    f = np.atleast_1d(floats("frequencies_hz", frequencies_hz, "Hz", error=ModelDomainError))
     if f.ndim != 1:
         raise ModelDomainError(f"frequencies_hz has shape {f.shape}; it must be (n_frequencies,) [Hz].")
     require_frequencies("frequencies_hz", f)

@@ -24,6 +24,7 @@ from numpy.polynomial.polynomial import polyval
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import ConfigError, ModelDomainError
@@ -138,7 +139,7 @@ class MassSpringDamper(PhysicalModel):
         Parameters: force_n : (n_samples,) [N], linear between samples; see `plate_transfer` for the others.
         Returns: (n_points, n_samples) float64 [m]; the first sample has the static response of the higher modes only.
         """
-        force = checks.floats("force_n", force_n, "N", error=ModelDomainError)
+        force = floats("force_n", force_n, "N", error=ModelDomainError)
         if force.ndim != 1 or not np.isfinite(force).all():
             raise ModelDomainError(f"force_n has shape {force.shape}; it must be (n_samples,) finite numbers [N].")
         rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=ModelDomainError)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ModelDomainError
 from scene2hap.materials import Material, lookup
@@ -174,7 +175,7 @@ class Plate:
 
         Source: Scene2Hap, CHI 2026, second equation of the propagation model.
         """
-        f = checks.floats("frequency_hz", frequency_hz, "Hz", error=ModelDomainError)
+        f = floats("frequency_hz", frequency_hz, "Hz", error=ModelDomainError)
         require_frequencies("frequency_hz", f)
         k: NDArray[np.float64] = self.wavenumber_per_root_omega * np.sqrt(2 * math.pi * f)
         return k

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import floats
 from scene2hap.errors import ModelDomainError
 from scene2hap.scene.pose import Pose
 
@@ -17,7 +18,7 @@ def as_points(points_m: ArrayLike, dimensions: int) -> NDArray[np.float64]:
 
     Raises: ModelDomainError: another shape, or a coordinate that is not finite.
     """
-    points = checks.floats("points", points_m, "m", error=ModelDomainError)
+    points = floats("points", points_m, "m", error=ModelDomainError)
     if points.ndim < 2:
         points = points.reshape(1, -1)
     if points.ndim != 2 or points.shape[1] != dimensions:

@@ -6,15 +6,12 @@ Bounds are boxes as arrays (2, n_axes) of the lowest and the highest corner.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Annotated, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from pydantic import Strict
 
 Vector = tuple[float, float, float]
-Real = Annotated[float, Strict()]
-"""A number in scene JSON, where pydantic would also take true and "1"."""
 Bounds = NDArray[np.float64]
 Number = TypeVar("Number", bound=np.generic)
 

@@ -13,11 +13,12 @@ from pydantic import InstanceOf
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
-from scene2hap.common.counted import counted
+from scene2hap.common.counted import first_of
+from scene2hap.common.json_fields import Real
 from scene2hap.common.printable import writable
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
-from scene2hap.scene.geometry import Real, bounds_of, frozen
+from scene2hap.scene.geometry import bounds_of, frozen
 from scene2hap.scene.images import ObjectImages
 from scene2hap.scene.looks.appearance import Appearance
 from scene2hap.scene.pose import Pose, how_to_write
@@ -273,16 +274,17 @@ class SceneData:
     contacts: tuple[Contact, ...] | None = None
 
 
-def unknown_object(
-    object_id: object, known: Mapping[str, object], listed: str = "`scene2hap inspect` lists its {}."
-) -> str:
-    """Return the sentence for an id that a scene does not have; `listed` says where its objects are listed."""
+def unknown_object(object_id: object, known: Mapping[str, object]) -> str:
+    """Return the sentence for an id that a scene does not have."""
     if not isinstance(object_id, str):
         how = ": give its .id" if isinstance(object_id, SceneObject) else ", of one object"
         some = next(iter(known), "")
         return f"an object's id is {checks.described(object_id)}; it must be a text{how}, such as {some!r}."
-    hint = checks.did_you_mean(object_id, known, listed.format(counted(len(known), "object")))
+    hint = checks.did_you_mean(object_id, known, f"There are {first_of([*map(repr, known)], _MOST_NAMED) or 'none'}.")
     return f"the scene has no object {checks.represented(object_id)}. {hint}"
+
+
+_MOST_NAMED = 10
 
 
 def with_relative_heights(objects: list[SceneObject], up_axis: UpAxis) -> tuple[SceneObject, ...]:

@@ -13,10 +13,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import floats
 from scene2hap.common.calls import clear_construction
+from scene2hap.common.json_fields import Real
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError
-from scene2hap.scene.geometry import Real, Vector, frozen, vector
+from scene2hap.scene.geometry import Vector, frozen, vector
 
 # A quaternion this close to unit length is kept unchanged, so that JSON round trips are bit-identical. One shorter than
 # `LEAST_LENGTH` is no rotation.
@@ -189,7 +191,7 @@ class Pose:
 
         Raises: SceneError: the upper left 3 x 3 block is not a rotation, or the last row is not (0, 0, 0, 1).
         """
-        m = checks.floats("matrix", matrix, "-", error=SceneError)
+        m = floats("matrix", matrix, "-", error=SceneError)
         if m.shape != (4, 4) or not np.isfinite(m).all():
             raise SceneError(f"matrix is not rigid: its shape is {m.shape}; it must be (4, 4) and finite.")
         r = m[:3, :3]
@@ -270,7 +272,7 @@ def _about(axis: int, half_rad: float) -> tuple[float, float, float, float]:
 
 
 def _points(name: str, value: ArrayLike) -> NDArray[np.float64]:
-    points = checks.floats(name, value, "m", error=SceneError)
+    points = floats(name, value, "m", error=SceneError)
     if points.shape[-1:] != (3,):
         raise SceneError(f"{name} has shape {points.shape}; it must be (n, 3) [m].")
     return points

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.counted import counted
 from scene2hap.errors import SceneError
@@ -79,7 +80,7 @@ class PoseTable(Mapping[str, Pose]):
         return len(self.ids)
 
     def _rows(self, name: str, values: ArrayLike, shape: tuple[int, int]) -> NDArray[np.float64]:
-        rows = np.array(checks.floats(name, values, "m" if shape[1] == 3 else "-", error=SceneError), order="C")
+        rows = np.array(floats(name, values, "m" if shape[1] == 3 else "-", error=SceneError), order="C")
         if rows.shape != shape:
             raise SceneError(f"{name} has shape {rows.shape}; it must be {shape}, one row for each id.")
         if not np.isfinite(rows).all():

@@ -13,9 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import PlainSerializer, PlainValidator
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import floats
 from scene2hap.common.calls import clear_construction
+from scene2hap.common.json_fields import Real
 from scene2hap.errors import SceneError
-from scene2hap.scene.geometry import Real, bounds_of, frozen
+from scene2hap.scene.geometry import bounds_of, frozen
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.surface import plate_sizes
 from scene2hap.scene.surface.outline import Outline
@@ -211,7 +213,7 @@ class DominantSurface:
 
 
 def _frozen_array(name: str, value: object, dtype: type[np.generic]) -> NDArray[Any]:
-    array = np.array(checks.floats(name, value, "m" if dtype is np.float64 else "-", error=SceneError))
+    array = np.array(floats(name, value, "m" if dtype is np.float64 else "-", error=SceneError))
     if array.size == 0:
         array = array.reshape(0, 3)
     if array.ndim != 2 or array.shape[1] != 3:

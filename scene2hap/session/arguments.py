@@ -13,7 +13,7 @@ import numpy as np
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.common import checks
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Floats, floats
 from scene2hap.devices.protocol import ActuatorSink
 from scene2hap.devices.whole_frames import MAX_RENDERED_FRAMES
 from scene2hap.errors import BundleError, ConfigError, SceneError, SessionError, UnknownObject
@@ -117,7 +117,7 @@ def given_points(points_m: object, hands: Sequence[str]) -> dict[str, Floats]:
         if given is None:
             continue
         name = f"points_m[{hand!r}]"
-        points = np.atleast_2d(checks.floats(name, given, "m", error=SessionError))
+        points = np.atleast_2d(floats(name, given, "m", error=SessionError))
         if np.shape(given) == (0,):
             continue  # a list of the tracked points that none is in
         if points.ndim != 2 or points.shape[1] != 3 or len(points) > MAX_POINTS:
@@ -184,7 +184,7 @@ def given_strike(
     if with_object == object_id:
         raise SessionError(
             f"with_object is {checks.represented(with_object)}, the struck object itself; give the object that strikes "
-            "it, or None for a finger."
+            "it, and none for a finger."
         )
     if speed_m_s is not None and impulse_n_s is not None:
         raise SessionError("speed_m_s and impulse_n_s are both given; give one of them.")
@@ -262,7 +262,7 @@ def require_prefab(prefab: object, pose: object) -> None:
         )
     if len(prefab.snapshot.objects) != 1:
         raise SessionError(
-            f"prefab has {len(prefab.snapshot.objects)} objects; it must have one. Bake each with bake_object."
+            f"prefab has {len(prefab.snapshot.objects)} objects; it must have one. Bake each object alone."
         )
     if not isinstance(pose, Pose):
         raise SessionError(f"pose is {checks.shown(pose)}; it must be a Pose.")

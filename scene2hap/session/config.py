@@ -37,7 +37,7 @@ def _bands(value: object) -> object:
     if isinstance(value, Sequence | np.ndarray) and not isinstance(value, str | bytes):
         return Bands(value)
     near = checks.did_you_mean(value, named, "They are 'dominant', 'around' or 'third-octaves'.")
-    raise ConfigError(f"bands are {checks.described(value)}; they must be Bands, rising edges [Hz], or a name. {near}")
+    raise ConfigError(f"bands are {checks.described(value)}; they must be rising edges [Hz] or a name. {near}")
 
 
 class SkipConfig(Settings):
@@ -65,7 +65,7 @@ class SkipConfig(Settings):
 def _skip(value: object) -> object:
     if not isinstance(value, bool | Mapping | SkipConfig):
         names = ", ".join(SkipConfig.model_fields)
-        raise ConfigError(f"skip is {checks.described(value)}; it must be True, False, or a mapping of {names}.")
+        raise ConfigError(f"skip is {checks.described(value)}; it must be true or false, or have {names}.")
     return SkipConfig(**dict.fromkeys(SkipConfig.model_fields, value)) if isinstance(value, bool) else value
 
 

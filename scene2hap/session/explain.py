@@ -232,15 +232,14 @@ class Explainer:
     def _reasons(self, on: set[str], *, is_paused: bool) -> Iterator[str]:
         """Yield sentences that say why a hand on these objects feels no source."""
         if is_paused:
-            yield "The session is paused; call resume()."
+            yield "The session is paused; end the pause."
         if self._sources.user.is_muted:
-            yield "The user's level is muted; call set_user(mute=False)."
+            yield "The user's level is muted; unmute it by set_user."
         unknown = sorted(on - self._state.bodies.keys())
         if unknown:
             yield (
-                f"The material of {', '.join(map(repr, unknown))} is unknown. Say what it is by bundle.override(id, "
-                "name=...), or what it is made of by override(id, material=...), then rebake(bundle); or give add its "
-                "haptics."
+                f"The material of {', '.join(map(repr, unknown))} is unknown. Correct its name or its material in "
+                "the bundle, and rebake it; or give `add` its haptics."
             )
         ids, near = self._sources.ids, self._connected(on)
         if not near:
@@ -289,11 +288,11 @@ class Explainer:
         """Return why a source is silent, and the remedy; None if it is not silent."""
         source = self._sources[source_id]
         if not source.is_on:
-            return "off", "call set_source(id, on=True)"
+            return "off", "switch it on by set_source"
         if source.level.is_muted:
-            return "muted", "call set_source(id, mute=False)"
+            return "muted", "unmute it by set_source"
         if source.is_resting:
-            return "in its off-time", "call set_source(id, on=True)"
+            return "in its off-time", "switch it on by set_source"
         if not source.has_contact:
             return f"without contact with {source.needs[source.state]!r}, switched on", "move it there"
         return None

@@ -195,7 +195,7 @@ class RemovedIds:
         """A sentence, after a blank, if the id was removed; else empty."""
         if not isinstance(wanted_id, str) or wanted_id not in self._ids:
             return ""
-        return f" {wanted_id!r} was removed; `add(object)` puts it back, `spawn` a copy of a prefab."
+        return f" {wanted_id!r} was removed; `add` puts it back, `spawn` a copy of a prefab."
 
 
 def require_hand(hand: object, hands: Sequence[str]) -> None:

@@ -72,7 +72,7 @@ class SceneState:
         if isinstance(object_id, str) and object_id in self.objects:
             return
         hint = self._removed.hint(object_id) + hint
-        raise UnknownObject(unknown_object(object_id, self.objects, "`session.object_ids` has its {}.") + hint)
+        raise UnknownObject(unknown_object(object_id, self.objects) + hint)
 
     def category(self, object_id: str) -> str:
         """Category of an object, empty if unknown."""

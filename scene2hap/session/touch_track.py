@@ -17,6 +17,7 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes
 from scene2hap.common.counted import counted
 from scene2hap.common.csv_tables import csv_reader, with_point
+from scene2hap.common.json_fields import Flag, Real
 from scene2hap.common.json_texts import parse_json
 from scene2hap.common.text_files import read_small_text
 from scene2hap.errors import SessionError, reason_of
@@ -32,7 +33,7 @@ MAX_DURATION_S = 600.0
 MAX_STEPS = 100_000
 """Assumed: more than two hands need that move in each of 60 frames a second for `MAX_DURATION_S`."""
 
-_Coordinate = Annotated[float, Field(ge=-MAX_COORDINATE_M, le=MAX_COORDINATE_M)]
+_Coordinate = Annotated[Real, Field(ge=-MAX_COORDINATE_M, le=MAX_COORDINATE_M)]
 _Point = tuple[_Coordinate, _Coordinate, _Coordinate]
 _TOUCHES = "touches"
 _ACTIONS = ("touch", "lift", "move", "source")
@@ -43,7 +44,7 @@ class _Step(BaseModel):
 
     model_config: ClassVar[ConfigDict] = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
-    time_s: float = Field(ge=0.0)
+    time_s: Real = Field(ge=0.0)
 
 
 class TouchStep(_Step):
@@ -55,7 +56,7 @@ class TouchStep(_Step):
     hand: str
     touch: str
     point_m: _Point | None = None
-    glide_s: float = Field(default=0.0, ge=0.0)
+    glide_s: Real = Field(default=0.0, ge=0.0)
 
 
 class LiftStep(_Step):
@@ -72,7 +73,7 @@ class MoveStep(_Step):
     to_m: _Point | None = None
     by_m: _Point | None = None
     rotation_xyzw: tuple[_Coordinate, _Coordinate, _Coordinate, _Coordinate] | None = None
-    glide_s: float = Field(default=0.0, ge=0.0)
+    glide_s: Real = Field(default=0.0, ge=0.0)
 
     @model_validator(mode="after")
     def _one_target(self) -> MoveStep:
@@ -85,9 +86,9 @@ class SourceStep(_Step):
     """A source is switched on or off, to a state, or to a level."""
 
     source: str
-    on: bool | None = None
+    on: Flag | None = None
     state: str | None = None
-    gain_db: float | None = None
+    gain_db: Real | None = None
 
 
 def _action(step: Any) -> str | None:
@@ -112,7 +113,7 @@ class TouchTrack(BaseModel):
 
     format: Literal["scene2hap/touches"] = FORMAT
     version: Literal[1] = VERSION
-    duration_s: float = Field(ge=MIN_DURATION_S, le=MAX_DURATION_S, allow_inf_nan=False)
+    duration_s: Real = Field(ge=MIN_DURATION_S, le=MAX_DURATION_S, allow_inf_nan=False)
     steps: tuple[Step, ...] = Field(max_length=MAX_STEPS)
     _name: str = PrivateAttr(default=_TOUCHES)
 
@@ -234,17 +235,25 @@ def _from_csv(text: str) -> dict[str, Any]:
         cells = {name: cell.strip() for name, cell in zip(named, row, strict=False) if name and cell.strip()}
         if not cells:
             continue
-        cells = {name: cell if name in _NAMES else with_point(cell) for name, cell in cells.items()}
-        step: dict[str, Any] = {
-            key: _TRUTH.get(value.lower(), value) for key, value in cells.items() if key not in _VECTOR_CELLS
-        }
+        values = {name: cell if name in _NAMES else _value(cell) for name, cell in cells.items()}
+        step: dict[str, Any] = {key: value for key, value in values.items() if key not in _VECTOR_CELLS}
         for name, columns in _VECTORS.items():
-            if any(column in cells for column in columns):
-                step[name] = [cells.get(column, "0") for column in columns]
+            if any(column in values for column in columns):
+                step[name] = [values.get(column, 0.0) for column in columns]
         steps.append(step)
     if not steps or set(steps[-1]) != {"time_s"}:
         raise ValueError("the last row must hold time_s alone, the end of the track")
     return {"duration_s": steps[-1]["time_s"], "steps": steps[:-1]}
+
+
+def _value(cell: str) -> bool | float | str:
+    """Return the flag or the number in a cell. Any other text stays one, which no step takes."""
+    if cell.lower() in _TRUTH:
+        return _TRUTH[cell.lower()]
+    try:
+        return float(with_point(cell))
+    except ValueError:
+        return cell
 
 
 _NAMES = ("hand", "touch", "move", "source", "state")

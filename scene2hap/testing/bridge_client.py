@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import math
 import os
 import subprocess
 import tempfile
@@ -76,7 +77,9 @@ def check_bridge_client(
         assert status == 0, f"the client ended with status {status}"
         assert out.exists(), f"the client has not written {out.name}, which SCENE2HAP_OUT names"
         rows = [line.split(",") for line in out.read_text().split()]
-    sequences = [int(row[0]) for row in rows]
+    wrong = [row for row in rows if not all(map(_is_number, row))]
+    assert not wrong, f"a line of {out.name} is {','.join(wrong[0])!r}; it must be a sequence and gains, as 1,0.5,0"
+    sequences = [int(float(row[0])) for row in rows]
     assert sequences == [*range(1, n_frames + 1)], _of_sequences(sequences, n_frames)
     heard = np.array([[float(cell) for cell in row[1:]] for row in rows])
     expected = expected_gains(n_frames).reshape(n_frames, -1)
@@ -179,5 +182,15 @@ class _Disturbance:
 
 def _of_sequences(found: list[int], n_frames: int) -> str:
     lacking = sorted({*range(1, n_frames + 1)} - {*found})
-    twice = len(found) - len({*found})
-    return f"of {n_frames} frames, gains lack for {len(lacking)} ({lacking[:5]}); {twice} came twice; or out of order"
+    if lacking:
+        return f"the lines lack {len(lacking)} of {n_frames} frames, the first with sequence {lacking[0]}"
+    if len(found) > n_frames:
+        return f"{len(found)} lines are written for {n_frames} frames; write those that came twice once"
+    return "the lines are not in the order of their sequences"
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False

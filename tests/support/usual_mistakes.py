@@ -424,7 +424,7 @@ TOPICS: dict[str, tuple[Mistake, ...]] = {
         mistake("HapticSession(scene, bundle, {'bands': {'kind': 'octaves'}})", "octaves", "third-octaves"),
         works("assert SessionConfig(bands={'kind': 'third-octaves'}) == SessionConfig(bands='third-octaves')"),
         works("assert HapticSession(scene, bundle, {'bands': [10, 100, 1000]}).update().gains.shape[2] == 2"),
-        mistake("HapticSession(scene, bundle, {'skip': 'all'})", "all", "True"),
+        mistake("HapticSession(scene, bundle, {'skip': 'all'})", "all", "true"),
         mistake("HapticSession(scene, bundle, {'propagation': ModalPlate})", "ModalPlate", "ModalPlate(...)"),
         mistake("HapticSession(scene, bundle, sink={'path': 'touch.wav'})", "touch.wav", "kind"),
         mistake("HapticSession(scene, bundle, sink={'kind': 'wav', 'file': 'touch.wav'})", "file", "path"),

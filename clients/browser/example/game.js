@@ -120,6 +120,7 @@ export async function playGame(client, { frames, rate_hz, onMove = () => {} }) {
   await client.play({ job, moving, frames: "every" });
   await isFinished;
   await client.leave();
+  client.close();
   return lines;
 }
 

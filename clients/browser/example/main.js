@@ -136,6 +136,7 @@ async function playDesk() {
   addEventListener("pagehide", () => {
     haptics.stop();
     client.leave();
+    client.close();
   });
   // For tests, and for the console.
   window.scene2hapExample = { client, haptics, hands, nodes, scene, stage };

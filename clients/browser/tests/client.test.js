@@ -455,13 +455,52 @@ test("a message that is too long is not sent", async () => {
   );
 });
 
-test("leave ends the session and the connection for good", async () => {
+test("leave ends the session, and another is played over the same connection", async () => {
   const client = makeClient();
   await playing(client);
   const left = client.leave();
   assert.equal(client.sendFrame(1), 0);
+  FakeSocket.last.bytes(gainsOf({ sequence: 1 })); // of a frame that was under way
+  assert.equal(client.gain("left", "phone"), 0);
   FakeSocket.last.answer("leave", { type: "left" });
   await left;
+  const again = client.play({ bundle: "cellar" });
+  await settled();
+  FakeSocket.last.answer("play", PLAYING);
+  await again;
+  assert.equal(client.sendFrame(1), 1);
+  assert.deepEqual(
+    FakeSocket.last.messages.map(({ type }) => type),
+    ["hello", "bake", "play", "leave", "play"],
+  );
+  assert.equal(FakeSocket.opened.length, 1);
+  assert.deepEqual(heardOf("error"), []);
+});
+
+test("a session that begins after leave was called ends", async () => {
+  const client = makeClient();
+  client.connect();
+  await online();
+  client.play({ bundle: "cellar" });
+  await settled();
+  const left = client.leave();
+  FakeSocket.last.answer("play", PLAYING);
+  FakeSocket.last.answer("leave", { type: "left" });
+  await left;
+  assert.deepEqual([client.isPlaying, client.sendFrame(1)], [false, 0]);
+  FakeSocket.last.fail();
+  mock.timers.tick(250);
+  await online();
+  assert.deepEqual(
+    FakeSocket.last.messages.map(({ type }) => type),
+    ["hello"],
+  );
+});
+
+test("close ends the connection for good", async () => {
+  const client = makeClient();
+  await playing(client);
+  client.close();
   assert.equal(FakeSocket.last.isClosed, true);
   mock.timers.tick(60_000);
   assert.equal(FakeSocket.opened.length, 1);
@@ -485,4 +524,9 @@ test("who watches gets gains, sends none, and watches again", async () => {
     FakeSocket.last.messages.map(({ type }) => type),
     ["hello", "watch"],
   );
+  FakeSocket.last.answer("watch", { ...order, type: "watching" });
+  const other = client.watch({ session: "77e1a09b" });
+  await settled();
+  FakeSocket.last.answer("watch", { ...order, session: "77e1a09b", type: "watching" });
+  assert.equal((await other).session, "77e1a09b");
 });

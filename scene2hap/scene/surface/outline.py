@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common import checks
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Floats, floats
 from scene2hap.common.calls import clear_construction
+from scene2hap.common.json_fields import Real
 from scene2hap.errors import SceneError
-from scene2hap.scene.geometry import Real, counted_up
+from scene2hap.scene.geometry import counted_up
 
 Ring = tuple[tuple[Real, Real], ...]
 
@@ -276,7 +277,7 @@ def _in_long_runs(is_in: NDArray[np.bool_], turns: Floats, least: float) -> NDAr
 
 
 def _ring(number: int, ring: object) -> Ring:
-    corners = checks.floats(f"ring {number} of the outline", ring, "m", error=SceneError)
+    corners = floats(f"ring {number} of the outline", ring, "m", error=SceneError)
     if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 3 or not np.isfinite(corners).all():
         raise SceneError(
             f"ring {number} of the outline has shape {corners.shape}; it must be (n_corners, 2) finite numbers [m], of "

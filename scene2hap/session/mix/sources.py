@@ -232,7 +232,7 @@ class Sources:
         if state is not None and not (isinstance(state, str) and state in source.rows):
             raise SessionError(
                 f"{source_id!r} has no state {checks.represented(state)}; it has {', '.join(map(repr, source.rows))}. "
-                "on=True and on=False switch it."
+                "`on` switches it on and off."
             )
         is_on = source.is_on if on is None else checks.flag("on", on, error=SessionError)
         source.level.set(gain_db, mute)

@@ -20,6 +20,7 @@ public static class CSharpTrials
             case "play": return Play(arguments[1], double.Parse(arguments[2], CultureInfo.InvariantCulture), int.MaxValue);
             case "play-until-felt": return Play(arguments[1], 60, 1);
             case "play-until-outdated": return Play(arguments[1], 60, 2);
+            case "watch": return Watch(arguments[1]);
             case "requests": return Requests(arguments[1]);
             case "levels": return Levels(arguments[1]);
             case "json": return ReadJson();
@@ -49,6 +50,54 @@ public static class CSharpTrials
         client.OrderChanged += () => Say("order {0} of {1}", client.MovingCount, client.Objects.Count);
         client.Left += () => Say("left");
         return client;
+    }
+
+    static bool Until(Func<bool> isTrue, params Client[] clients)
+    {
+        Stopwatch clock = Stopwatch.StartNew();
+        while (!isTrue() && clock.Elapsed.TotalSeconds < 60)
+        {
+            foreach (Client one in clients)
+            {
+                one.Poll();
+                SendDesk(one, clock.Elapsed.TotalSeconds);
+            }
+            Thread.Sleep(5);
+        }
+        return isTrue();
+    }
+
+    /// <summary>One client plays and another watches: twice, with a session between them that does not exist.</summary>
+    static int Watch(string url)
+    {
+        using (Client player = Printing(url), watcher = new Client(url))
+        {
+            watcher.Started += () => Say("started");
+            watcher.RequestFailed += (type, message) => Say("error {0}: {1}", type, message["error"].AsText());
+            watcher.WatchedState += text => Say("watched {0}", text);
+            player.Bake(Desk());
+            player.Play(new PlayOptions { Moving = new[] { "table", "phone" } });
+            player.Connect();
+            watcher.Connect();
+            Until(() => player.Intensity("left") > 0 && watcher.State == ClientState.Ready, player, watcher);
+            watcher.Watch(player.SessionId);
+            Say("watches {0} {1}", Until(() => watcher.Intensity("left") > 0, player, watcher), watcher.State);
+            Say("sends {0}", watcher.SendFrame(1));
+            watcher.Watch("c2f1a09b");
+            bool isRefused = false;
+            watcher.RequestFailed += (type, message) => isRefused = true;
+            Until(() => isRefused, player, watcher);
+            Say("state {0}", watcher.State);
+            watcher.Watch(player.SessionId);
+            Say("watches {0} {1}", Until(() => watcher.Intensity("left") > 0, player, watcher), watcher.State);
+            player.Leave();
+            Until(() => watcher.State == ClientState.Ready, watcher);
+            Say("state {0}", watcher.State);
+            bool hasLeft = false;
+            player.Left += () => hasLeft = true;
+            Until(() => hasLeft, player);
+        }
+        return 0;
     }
 
     static string Desk()

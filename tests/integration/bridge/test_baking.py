@@ -38,6 +38,16 @@ def test_bake_over_the_bridge_equals_a_local_bake(bridge: Bridge, root: Path, de
         assert (root / "made.bundle" / name).read_bytes() == (root / "desk.bundle" / name).read_bytes()
 
 
+def test_warnings_of_a_bake_reach_its_client(bridge: Bridge, desk: HapticBundle) -> None:
+    scene = json.loads(desk.snapshot.to_json())
+    scene["objects"][0]["masss_kg"] = scene["objects"][0].pop("mass_kg")
+    with Client(bridge().url) as client:
+        job = client.bake(scene=scene)
+        (warning,) = [one for one in client.heard if one["type"] == "warning"]
+    assert warning["job"] == job
+    assert warning["message"] == "the field 'masss_kg' of an object is ignored. Did you mean 'mass_kg'?"
+
+
 def test_a_scene_file_below_the_root(bridge: Bridge, root: Path, desk: HapticBundle) -> None:
     (root / "desk.json").write_text(desk.snapshot.to_json())
     server = bridge()

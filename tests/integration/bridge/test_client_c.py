@@ -253,6 +253,8 @@ def test_another_client_watches(driver: Driver, bridge: Callable[..., BridgeServ
         watcher.do(f"create {server.url} - 0 0")
         assert watcher.one(f"request watch {session}")["request"]
         assert "key" not in watcher.until("playing")["message"]
+        assert watcher.one(f"request watch {session}")["request"]  # in place of the first
+        assert watcher.until("playing")["message"]["type"] == "watching"
         driver.one("pose phone 0.2 0.724 0")
         driver.one("touch left table 0")
         assert driver.one("frame 0.1")["sent"] == 1

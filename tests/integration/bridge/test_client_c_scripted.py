@@ -339,7 +339,7 @@ def test_a_second_session_is_refused_and_the_first_goes_on(driver: Driver) -> No
         assert driver.one("play 0 c phone newest")["request"] == 0
         error = driver.until("error")
         assert error["error"] == "BridgeError"
-        assert error["text"] == "play was not sent: this connection has a session; call s2h_leave first."
+        assert error["text"] == "play was not sent: this connection plays; call s2h_leave first."
         assert driver.one("frame 0.1")["sent"] == 1
         driver.until("gains")
         driver.one("request leave")

@@ -210,7 +210,7 @@ def test_levels_and_prefabs_are_baked_and_saved(trial: Callable[..., list[str]],
         lines = trial("levels", server.url)
     assert (tmp_path / "desk.bundle").is_dir()
     own = ("hello", "play", "resume", "watch", "leave")
-    refused = [(f"error {one} is the client's own request; call Play or Leave.", "request False") for one in own]
+    refused = [(f"error {one} is the client's own request; call Play, Watch or Leave.", "request False") for one in own]
     assert [line for line in lines if not line.startswith(("error play: BundleIncomplete", "warning"))] == [
         "failed play BundleIncomplete",
         "started",
@@ -266,6 +266,31 @@ def test_a_wrong_token_is_reported_and_not_tried_again(trial: Callable[..., list
         assert not any(line in ("started", "state Ready") for line in lines)
         assert not any("another token" in line for line in lines)
         assert "feels" in trial("play-until-felt", server.url, token=TOKEN)
+
+
+def test_an_address_with_tls_is_refused_at_once(trial: Callable[..., list[str]]) -> None:
+    lines = trial("play", "wss://127.0.0.1:1/", 60, timeout_s=30.0)
+    assert lines[0].startswith("error wss://127.0.0.1:1/ cannot be used: its address must begin with ws://")
+    assert sum(line.startswith("error") for line in lines) == 1
+    assert "state Failed" in lines
+
+
+def test_one_client_watches_another(trial: Callable[..., list[str]]) -> None:
+    with serving() as server:
+        lines = trial("watch", server.url)
+    assert [line for line in lines if not line.startswith("warning")] == [
+        "started",
+        "started",
+        "watches True Watching",
+        "sends False",
+        "error watch: UnknownSession",
+        "state Ready",
+        "started",
+        "watches True Watching",
+        "watched ended",
+        "state Ready",
+        "left",
+    ]
 
 
 def test_missing_server_does_not_block_frames(trial: Callable[..., list[str]]) -> None:

@@ -4,6 +4,7 @@ import asyncio
 import json
 import os
 import random
+import re
 import signal
 import socket
 import struct
@@ -165,6 +166,84 @@ def test_failed_requests_are_reported_and_the_session_continues(bridge: Bridge) 
             with pytest.raises(Refused):
                 client.hear(lambda one: one["type"] == "error")
         assert_plays(client, 9)
+
+
+BOX = {"id": "cup", "name": "Cup", "pose": {"position_m": [0, 1, 0]}, "geometry": {"kind": "box", "size_m": [1, 1, 1]}}
+ROOM = {"format": "scene2hap/scene", "version": 1, "name": "room", "up_axis": "y", "objects": [BOX]}
+
+
+def mesh(vertex: list[Any]) -> dict[str, Any]:
+    shape = {"kind": "mesh", "vertices_m": [vertex, [1, 0, 0], [0, 1, 0], [0, 0, 1]], "faces": [[0, 2, 1], [0, 1, 3]]}
+    return {**ROOM, "objects": [{**BOX, "geometry": shape}]}
+
+
+PYTHON = re.compile(r"\b(None|True|False|nan|inf|dict|tuple|argument|numpy|sys|session\.\w+|\w+\()")
+"""Words of Python, which say nothing to authors of clients in other languages."""
+
+
+@pytest.mark.parametrize(
+    ("message", "says"),
+    [
+        ("", "it is empty"),
+        ('{"type": "stats"', "the text ends before"),
+        ('{"type": "stats"} x', "the text goes on after"),
+        ("{'type': 'stats'}", "straight double quotes"),
+        ("null", "it is null"),
+        ('{"type": "\\ud800"}', "surrogate"),
+        (f'{{"type": "stats", "id": {"9" * 5000}}}', "thousands of digits"),
+        ({"type": None}, "is null, which does not exist"),
+        ({"type": "stats", "id": True}, "id of stats: .*, got true"),
+        ('{"type": "set_user", "gain_db": NaN}', "must be finite, got NaN"),
+        ({"type": "set_user", "gain_db": True}, "must be a number.*, got true"),
+        ({"type": "set_user", "gain_db": "3"}, "must be a number.*, got '3'"),
+        ({"type": "set_source", "source": "phone", "on": 1}, "must be true or false, got 1"),
+        ({"type": "set_source", "source": "phone", "on": "no"}, "must be true or false, got 'no'"),
+        ({"type": "set_source", "source": "phone", "state": "loud"}, "`on` switches"),
+        ({"type": "set_user", "profile": {"gain_db": None}}, "got null"),
+        ({"type": "strike", "object": "vase", "point_m": [0, 0, 0]}, "There are 'table', 'phone', 'mug'"),
+        ({"type": "strike", "object": "mug", "point_m": [0, True, 0]}, "point_m.1 of strike.*, got true"),
+        ({"type": "strike", "object": "mug", "point_m": {"x": 0}}, "must be a list, got an object"),
+        ({"type": "strike", "object": "mug", "with_object": "mug", "point_m": [0, 0, 0]}, "and none for a finger"),
+        ({"type": "moving", "moving": ["vase"]}, "There are 'table', 'phone', 'mug'"),
+        ({"type": "spawn", "object": "x", "position_m": [0, 0, 0], "prefab": "desk.bundle"}, "Bake each object alone"),
+        ({"type": "spawn", "object": "x", "position_m": [0, 0, 0], "prefab": "desk"}, "Did you mean 'desk.bundle'"),
+        ({"type": "spawn", "object": "x", "position_m": [0, 0, 0], "prefab": "cup"}, "`bake` with `save` writes one"),
+        (b"S2HB\x03\x01\x02\x00{}", "kind is null"),
+        (b"S2HB\x03\x01\x01\x00{", "the text ends before"),
+    ],
+)
+def test_errors_speak_the_words_of_the_protocol(bridge: Bridge, root: Path, message: Any, says: str) -> None:
+    with Client(bridge().url) as client:
+        client.play(bundle="desk.bundle", moving=["phone"])
+        client.socket.send(json.dumps(message) if isinstance(message, dict) else message)
+        with pytest.raises(Refused, match=says) as refused:
+            client.hear(lambda one: one["type"] == "error")
+        assert not PYTHON.search(str(refused.value))
+        assert str(root) not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("request_", "says"),
+    [
+        (
+            {"session": {"propagation": {"kind": "modal_plate", "colour": 1}}},
+            "no setting 'colour'. There are loss_floor",
+        ),
+        ({"session": {"actuator": {"colour": 1}}}, "no setting 'colour'. There are name, min_frequency_hz"),
+        ({"session": {"bands": 3}}, "rising edges .* or a name"),
+        ({"session": {"sample_rate_hz": True}}, "neither true nor false, got true"),
+        ({"session": {"skip": 3}}, "must be true or false, or have"),
+        ({"scene": ROOM}, "`snapshot` of the bundle"),
+        ({"scene": mesh([0, 0, True])}, "vertices_m is not a table of numbers .*: it has true"),
+        ({"scene": mesh([0, 0, None])}, "it has null"),
+        ({"scene": mesh([0, 0, "1"])}, "it has '1'"),
+        ({"scene": mesh([0, 0])}, "rows are not equally long"),
+    ],
+)
+def test_errors_of_settings_and_scenes_do_so_too(bridge: Bridge, request_: dict[str, Any], says: str) -> None:
+    with Client(bridge().url) as client, pytest.raises(Refused, match=says) as refused:
+        client.ask("play", bundle="desk.bundle", **request_)
+    assert not PYTHON.search(str(refused.value))
 
 
 def test_messages_above_the_size_limit_are_refused(bridge: Bridge) -> None:

@@ -14,6 +14,7 @@ import pytest
 from bridge_client import Client, Refused, __file__ as game
 from scene2hap import HapticBundle, HapticSession, Pose, Touch, bake_object
 from scene2hap.bridge import BridgeServer
+from scene2hap.cli import main
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
 from scene2hap.testing import check_bridge_client
 from serial_bench import eventually
@@ -32,6 +33,33 @@ def test_the_game_of_the_protocol_page() -> None:
     found = check_bridge_client([sys.executable, "-W", "error", game], n_frames=60)
     assert (found.n_frames, found.n_resumed) == (60, 1)
     assert found.worst < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("program", "says"),
+    [
+        ("raise SystemExit(3)", "the client ended with status 3"),
+        ("pass", "the client has not written gains.csv"),
+        ("write('')", "the lines lack 600 of 600 frames, the first with sequence 1"),
+        ("write('1,0.5,nan')", "a line of gains.csv is '1,0.5,nan'; it must be a sequence and gains"),
+        ("write(' '.join(f'{i},0' for i in range(600, 0, -1)))", "the lines are not in the order of their sequences"),
+        ("write(' '.join(f'{i or 1},0' for i in range(601)))", "601 lines are written for 600 frames"),
+    ],
+)
+def test_a_client_that_fails_the_check_learns_why(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], program: str, says: str
+) -> None:
+    file = tmp_path / "client.py"
+    head = "import os, pathlib\nwrite = pathlib.Path(os.environ['SCENE2HAP_OUT']).write_text\n"
+    file.write_text(head + program)
+    assert main(["bridge", "--check", f"{sys.executable} {file}"]) == 1
+    said = " ".join(capsys.readouterr().err.split())
+    assert f"the client fails the check: {says}" in said
+
+
+def test_a_command_that_does_not_start_is_no_traceback(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bridge", "--check", "no-such-client"]) == 1
+    assert "--check is 'no-such-client', which cannot be started" in " ".join(capsys.readouterr().err.split())
 
 
 def test_no_answer_is_lost_with_frames_in_flight() -> None:
@@ -102,6 +130,29 @@ def test_several_watch_and_one_plays(bridge: Bridge) -> None:
         assert first.hear(lambda one: one["type"] == "order")["objects"] == ["table", "phone"]
         player.ask("leave")
         assert first.hear(lambda one: one["type"] == "state")["is"] == "ended"
+
+
+def test_another_session_takes_the_place_of_a_watched_one(bridge: Bridge) -> None:
+    server = bridge()
+    with Client(server.url) as one, Client(server.url) as other, Client(server.url) as watcher:
+        sessions = [player.play(bundle="desk.bundle", moving=[])["session"] for player in (one, other)]
+        for session in sessions:
+            assert watcher.ask("watch", session=session)["session"] == session
+        one.socket.send(one.frame(1, 0.0, poses(), [ON_TABLE]))
+        one.next_gains()
+        other.socket.send(other.frame(1, 7.0, poses(), []))
+        assert watcher.next_gains().time_s == 7.0
+        with pytest.raises(Refused, match="no session"):
+            watcher.ask("watch", session="c2f1a09b")
+        other.socket.send(other.frame(2, 8.0, poses(), []))
+        assert watcher.next_gains().time_s == 8.0  # a refused request changes nothing
+        watcher.play(bundle="desk.bundle", moving=[])
+        with pytest.raises(Refused, match="leave"):
+            watcher.ask("watch", session=sessions[0])
+        other.socket.send(other.frame(3, 9.0, poses(), []))
+        other.ask("stats")
+        watcher.socket.send(watcher.frame(1, 1.0, poses(), [ON_TABLE]))
+        assert watcher.next_gains().time_s == 1.0
 
 
 def test_states_levels_and_pauses(bridge: Bridge) -> None:

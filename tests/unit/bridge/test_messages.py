@@ -45,14 +45,14 @@ def test_a_request_keeps_its_id() -> None:
     assert parse_request({"type": "leave", "id": 7}).id == 7
 
 
-@pytest.mark.parametrize("given", [7, 7.0, "7", 1e3, True, 0, None])
+@pytest.mark.parametrize("given", [7, 7.0, 1e3, 0, None])
 def test_every_id_that_is_accepted_is_answered(given: object) -> None:
     """A client would wait for ever otherwise. JSON of some languages has no integers: GDScript and Lua write 7.0."""
     document = {"type": "leave", "id": given}
     assert request_id(document) == parse_request(document).id
 
 
-@pytest.mark.parametrize("given", ["x", 1.5, [], {}])
+@pytest.mark.parametrize("given", ["x", "7", True, 1.5, [], {}])
 def test_an_id_that_is_no_integer_is_refused(given: object) -> None:
     assert request_id({"id": given}) is None
     with pytest.raises(BridgeError, match="id of leave"):

@@ -6,6 +6,7 @@ import struct
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ import soundfile
 from numpy.typing import NDArray
 
 from scene2hap import MemorySink, WavSink
+from scene2hap.common.warning import SceneWarning
 from scene2hap.devices.protocol import SinkFormat
 from scene2hap.errors import ConfigError, DeviceError
 
@@ -204,6 +206,22 @@ os._exit(9)  # ends as by kill -9, without closing any file
     assert struct.unpack_from(length_type, content, length_at) == (5000 * len(by_hand),)
     samples, rate_hz = soundfile.read(draft)
     assert (samples.shape, rate_hz) == ((5000, 3), 48_000)
+
+
+def test_a_soundfile_without_the_private_names_writes_takes_as_before(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Both names are tried with the lowest and the newest soundfile by the test above; a later one may lack them."""
+    public = {name: getattr(soundfile, name) for name in ("SoundFile", "SoundFileError", "__version__")}
+    monkeypatch.setattr("scene2hap.devices.wav.soundfile", SimpleNamespace(**public))
+    path = tmp_path / "take.wav"
+    sink = WavSink(path)
+    with pytest.warns(SceneWarning, match="soundfile .* header .* killed"):
+        sink.open(FORMAT)
+    sink.start(Ramp())
+    block = sink.pull(100)
+    sink.close()
+    np.testing.assert_allclose(soundfile.read(path)[0], block, atol=2**-23)
 
 
 @pytest.mark.parametrize(

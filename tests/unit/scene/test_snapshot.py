@@ -91,7 +91,7 @@ def test_object_lookup_by_id_names_the_nearest_id_on_failure() -> None:
     assert snapshot.object("kettle").name == "kettle"
     with pytest.raises(UnknownObject, match="'kettle'"):
         snapshot.object("ketle")
-    with pytest.raises(LookupError, match="`scene2hap inspect` lists its 1 object\\."):
+    with pytest.raises(LookupError, match="There are 'kettle'\\."):
         snapshot.object("zzz")
 
 

@@ -440,8 +440,8 @@ def test_contacts_of_the_other_objects_are_not_read_again(monkeypatch: pytest.Mo
 
 def test_an_unknown_object_is_refused_with_the_present_ids_of_the_session() -> None:
     s = session()
-    with pytest.raises(UnknownObject, match=r"no object 'zeppelin'. `session.object_ids` has its 5 objects\.$"):
+    with pytest.raises(UnknownObject, match=r"no object 'zeppelin'. There are 'table', .*'phone'"):
         s.update({"zeppelin": Pose()})
     s.remove("phone")
-    with pytest.raises(UnknownObject, match=r"no object 'zeppelin'. `session.object_ids` has its 4 objects\.$"):
+    with pytest.raises(UnknownObject, match=r"no object 'zeppelin'. There are (?!.*'phone').*\.$"):
         s.update(touches=[Touch("left", "zeppelin", (0.0, 0.0, 0.0))])

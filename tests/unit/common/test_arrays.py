@@ -1,0 +1,47 @@
+"""Arrays that users and files give."""
+
+from contextvars import copy_context
+
+import numpy as np
+import pytest
+
+from scene2hap.common import checks
+from scene2hap.common.arrays import floats
+from scene2hap.errors import SceneError
+
+
+@pytest.mark.parametrize(
+    ("value", "reason"),
+    [
+        ([[0.0, 1.0, True]], "it has True"),
+        ([[0.0, np.True_, 1.0]], "it has a bool"),
+        ([[0.0, None, 1.0]], "it has None"),
+        ([["1", 0, 0]], "it has '1'"),
+        ([[0, 0, 0], [1, 1]], "its rows are not equally long"),
+        ([0.0, [1.0]], "its rows are not equally long"),
+        ([{"x": 0}], "it has a dict"),
+        (None, "it has None"),
+        (np.array([True]), "bool is no type of real numbers"),
+    ],
+)
+def test_what_is_no_number_is_refused(value: object, reason: str) -> None:
+    with pytest.raises(SceneError, match=f"points is not a table of numbers \\[m\\]: {reason}"):
+        floats("points", value, "m", error=SceneError)
+
+
+@pytest.mark.parametrize(
+    "value", [[[1, 2.0], (3, np.float32(4))], [[1, 2], np.array([3, 4])], [np.array([1, 2]), [3, 4]], [[], []]]
+)
+def test_lists_of_numbers_and_arrays_are_taken(value: list[object]) -> None:
+    found = floats("points", value, "m", error=SceneError)
+    np.testing.assert_array_equal(found, np.array([[1, 2], [3, 4]])[:, : found.shape[1]])
+
+
+def test_values_are_written_as_json_for_those_who_sent_json() -> None:
+    def of_a_client() -> list[str]:
+        checks.speak_json()
+        return [checks.shown(x) for x in (None, True, [1.5, None], {"a": None}, float("nan"))] + [checks.described({})]
+
+    said = copy_context().run(of_a_client)
+    assert said == ["null", "true", "[1.5, null]", "{'a': null}", "NaN", "an object"]
+    assert checks.shown(None) == "None"  # elsewhere nothing changes
