@@ -29,6 +29,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from operator import itemgetter
 
 import numpy as np
@@ -208,6 +209,7 @@ def rendered_hz(sample_rate_hz: float, actuator: ActuatorProfile) -> tuple[float
     return low, min(RANGE_HZ[1], actuator.max_frequency_hz, 0.45 * sample_rate_hz)
 
 
+@lru_cache(maxsize=8)
 def best_carrier_hz(actuator: ActuatorProfile) -> float:
     """Return the frequency at which the actuator is felt best, among those that suit short bursts [Hz]."""
     f = np.geomspace(*CARRIER_RANGE_HZ, 65)
