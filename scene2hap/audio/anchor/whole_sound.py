@@ -245,7 +245,8 @@ class _Needs:
 
     def __init__(self, x: Signal, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> None:
         self._x, self._n, self._rate_hz, self._level_db, self._actuator = x, len(x), sample_rate_hz, level_db, actuator
-        self._spectrum = np.asarray(scipy.fft.rfft(x), dtype=np.complex128) / len(x)
+        self._spectrum = np.asarray(scipy.fft.rfft(x), dtype=np.complex128)
+        self._spectrum /= len(x)
         self._f = scipy.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
         self._power = self._spectrum.real**2 + self._spectrum.imag**2
         # Far above the middle f_0 of a band, its energy is that of the sound times (f_0 / f)^4 / Q^4.
