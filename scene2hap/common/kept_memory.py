@@ -1,4 +1,4 @@
-"""Freed memory that stays with the process while sounds are converted.
+"""Freed memory that stays with the process once it has converted sounds.
 
 The allocator of Linux (glibc) returns freed memory to the system if it exceeds twice the largest block that was ever
 freed. A conversion takes and frees tens of megabytes in blocks of up to 4, and the system clears each page before it
