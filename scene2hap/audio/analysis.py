@@ -178,16 +178,16 @@ def peak_frequency_hz(
     """
     m = np.asarray(magnitude, dtype=np.float64)
     low, high = range_hz
-    bins = np.arange(max(1, math.ceil(low / bin_hz)), min(len(m) - 2, math.floor(high / bin_hz)) + 1)
-    if bins.size == 0:
+    first, end = max(1, math.ceil(low / bin_hz)), min(len(m) - 2, math.floor(high / bin_hz)) + 1
+    if end <= first:
         return None
-    left, centre, right = m[bins - 1], m[bins], m[bins + 1]
-    is_peak = (centre >= left) & (centre >= right)
+    centre = m[first:end]
+    is_peak = (centre >= m[first - 1 : end - 1]) & (centre >= m[first + 1 : end + 1])
     height = centre
     if weight_db is not None:
-        f = np.asarray(bins * bin_hz, dtype=np.float64)
+        f = np.asarray(np.arange(first, end) * bin_hz, dtype=np.float64)
         height = np.asarray(centre * 10 ** (weight_db(f) / 20), dtype=np.float64)
-    k = int(bins[np.argmax(np.where(is_peak, height, 0.0) if is_peak.any() else height)])
+    k = first + int(np.argmax(np.where(is_peak, height, 0.0) if is_peak.any() else height))
     return float((k + peak_offset(m[k - 1 : k + 2])) * bin_hz)
 
 

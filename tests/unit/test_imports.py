@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from scene2hap.compiled import are_in_use
 from scene2hap.errors import UnknownImport
 
 HELP = """
@@ -61,16 +62,22 @@ from scene2hap.cli import main
 with tempfile.TemporaryDirectory() as folder:
     sound, felt = Path(folder) / "hum.wav", Path(folder) / "felt.wav"
     soundfile.write(sound, 0.2 * numpy.sin(2 * numpy.pi * 97.0 / 8000 * numpy.arange(8000)), 8000)
-    code = main(["convert", str(sound), "-o", str(felt), "--actuator", "lra", "--quiet"])
+    code = main(["convert", str(sound), "-o", str(felt), "--actuator", "ACTUATOR", "--quiet"])
     assert code == 0 and felt.is_file(), code
 """
 
 
 def test_a_conversion_loads_no_other_side_of_the_library() -> None:
     """Bundles and sessions take 0.25 s to load, and a short sound is converted in 0.05 s."""
-    loaded = modules_after(CONVERT)
+    loaded = modules_after(CONVERT.replace("ACTUATOR", "lra"))
     assert "pydantic" not in loaded
     assert not {name for name in loaded if name.startswith(("scene2hap.bundle", "scene2hap.session", "scene2hap.llm"))}
+
+
+@pytest.mark.skipif(not are_in_use(), reason="plain kernels filter by scipy.signal")
+def test_a_conversion_without_a_shift_loads_no_filter_design() -> None:
+    """`scipy.signal` takes as long to load as all the rest of a conversion."""
+    assert "scipy.signal" not in modules_after(CONVERT.replace("ACTUATOR", "flat"))
 
 
 WITHOUT_FORK = """

@@ -29,6 +29,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from operator import itemgetter
 
 import numpy as np
@@ -208,6 +209,7 @@ def rendered_hz(sample_rate_hz: float, actuator: ActuatorProfile) -> tuple[float
     return low, min(RANGE_HZ[1], actuator.max_frequency_hz, 0.45 * sample_rate_hz)
 
 
+@lru_cache(maxsize=8)
 def best_carrier_hz(actuator: ActuatorProfile) -> float:
     """Return the frequency at which the actuator is felt best, among those that suit short bursts [Hz]."""
     f = np.geomspace(*CARRIER_RANGE_HZ, 65)
@@ -243,7 +245,8 @@ class _Needs:
 
     def __init__(self, x: Signal, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> None:
         self._x, self._n, self._rate_hz, self._level_db, self._actuator = x, len(x), sample_rate_hz, level_db, actuator
-        self._spectrum = np.asarray(scipy.fft.rfft(x), dtype=np.complex128) / len(x)
+        self._spectrum = np.asarray(scipy.fft.rfft(x), dtype=np.complex128)
+        self._spectrum /= len(x)
         self._f = scipy.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
         self._power = self._spectrum.real**2 + self._spectrum.imag**2
         # Far above the middle f_0 of a band, its energy is that of the sound times (f_0 / f)^4 / Q^4.

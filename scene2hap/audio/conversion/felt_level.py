@@ -74,7 +74,9 @@ class FeltLevel:
         thresholds, summed over components and pieces and multiplied by time [samples]."""
         if not pieces:
             return 0.0
-        spectrum = scipy.fft.rfft(np.stack(pieces) * self._window, axis=2)[:, :, self._inside]
+        windowed = np.stack(pieces)
+        windowed *= self._window
+        spectrum = scipy.fft.rfft(windowed, axis=2)[:, :, self._inside]
         power = spectrum.real.astype(np.float64) ** 2 + spectrum.imag.astype(np.float64) ** 2
         # Factor 4: both sides of the spectrum, and the square of an amplitude is twice its mean power (Parseval).
         return np.asarray(4.0 / len(self._window) * (power @ self._weight).sum(axis=0))
@@ -87,8 +89,8 @@ def _window(size: int, overlap: int) -> NDArray[np.float32]:
 
 
 @lru_cache(maxsize=2)
-def _weights(size: int, sample_rate_hz: int, actuator: ActuatorProfile) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+def _weights(size: int, sample_rate_hz: int, actuator: ActuatorProfile) -> tuple[slice, NDArray[np.float64]]:
     """Return the bins that can be felt, and the squared ratio of amplitude to threshold at each."""
     f = np.fft.rfftfreq(size, 1.0 / sample_rate_hz)
-    inside = np.flatnonzero((f >= TACTILE_RANGE_HZ[0]) & (f <= TACTILE_RANGE_HZ[1]))
+    inside = slice(np.searchsorted(f, TACTILE_RANGE_HZ[0]), np.searchsorted(f, TACTILE_RANGE_HZ[1], side="right"))
     return inside, 10 ** ((response_db(actuator, f[inside]) - threshold_db(f[inside])) / 10)

@@ -62,7 +62,9 @@ class Meter:
             self._filled += n
             at += n
             if self._filled == self._segment.shape[1]:
-                self._add(self._segment * self._window)
+                self._full.append(self._segment * self._window)
+                if len(self._full) * len(self._segment) >= AT_ONCE:
+                    self._add_full()
                 self._filled = 0
                 self._starts.pop(0)
                 at = self._skip(at, len(block))
@@ -80,11 +82,13 @@ class Meter:
         return self._peak_hz(TACTILE_RANGE_HZ, lambda f: over_threshold_db(f, actuator))
 
     def _peak_hz(self, range_hz: tuple[float, float], weight_db: analysis.Weight | None) -> float | None:
+        self._add_full()
         if not self._is_measured and self._filled > 1:
             rest = self._segment[:, : self._filled]
-            rest = (rest - rest.mean(axis=1, keepdims=True)) * _window(self._filled)
-            self._add(np.pad(rest, ((0, 0), (0, self._segment.shape[1] - self._filled))))
-        self._add_full()
+            rest -= rest.mean(axis=1, keepdims=True)
+            rest *= _window(self._filled)
+            self._full.append(self._segment)
+            self._add_full()
         if not self._power[1:].any():
             return None
         low, high = range_hz
@@ -98,18 +102,13 @@ class Meter:
             return end
         return at if self._filled else min(end, max(at, self._starts[0] - self.n_frames))
 
-    def _add(self, segment: NDArray[np.float32]) -> None:
-        self._is_measured = True
-        self._full.append(segment)
-        if len(self._full) * len(segment) >= AT_ONCE:
-            self._add_full()
-
     def _add_full(self) -> None:
         if self._full:
-            spectrum = scipy.fft.rfft(np.stack(self._full), axis=2)
-            for power in (spectrum.real**2 + spectrum.imag**2).sum(axis=1):
+            parts = scipy.fft.rfft(np.stack(self._full), axis=2).view(np.float32)  # real and imaginary in turn
+            np.square(parts, out=parts)
+            for power in (parts[:, :, ::2] + parts[:, :, 1::2]).sum(axis=1):
                 self._power += power
-            self._full = []
+            self._full, self._is_measured = [], True
 
     def _trace(self, block: Block) -> None:
         """Update the envelope with the largest absolute sample of each column's frames."""

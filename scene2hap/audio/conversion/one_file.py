@@ -40,6 +40,7 @@ from scene2hap.audio.protocol import (
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.common import checks
 from scene2hap.common.blas_threads import one_blas_thread
+from scene2hap.common.kept_memory import keep_freed_memory
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import AudioError, ConfigError
 
@@ -131,6 +132,7 @@ def convert(
     length.
     """
     begin = time.perf_counter()
+    keep_freed_memory()
     source, output = Path(source), Path(output)
     built, context = settled(converter, actuator, intensity)
     if raw and loop:

@@ -130,10 +130,10 @@ class SoundReader:
         head = next(self._parts(_OFFSET_FRAMES), None)
         if head is None or not np.isfinite(head).all():  # the conversion raises an error for this
             return np.zeros(self.channels)
-        channels = self._mixed(head)
-        beginning = channels[: round(_BEGINNING_S * self.rate)]
-        offsets, own = (x.mean(axis=0, dtype=np.float64) for x in (channels, beginning))
-        is_faded = np.abs(offsets) - np.abs(own) > beginning.std(axis=0, dtype=np.float64)
+        channels = np.ascontiguousarray(self._mixed(head).T, dtype=np.float64)
+        beginning = channels[:, : round(_BEGINNING_S * self.rate)]
+        offsets, own = channels.mean(axis=1), beginning.mean(axis=1)
+        is_faded = np.abs(offsets) - np.abs(own) > beginning.std(axis=1)
         first: NDArray[np.float64] = np.where(is_faded, own, offsets)
         return first
 

@@ -14,6 +14,8 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from scene2hap.audio.second_order import high_pass
+
 Signal = NDArray[np.float64]
 
 HALVED_HZ = 15.0
@@ -22,7 +24,7 @@ HALVED_HZ = 15.0
 
 def heard_sections(sample_rate_hz: float) -> Signal:
     """Return the high-pass as sections (2, 6) for `SosStage`."""
-    section = scipy.signal.butter(2, min(HALVED_HZ, 0.4 * sample_rate_hz), "highpass", fs=sample_rate_hz, output="sos")
+    section = high_pass(min(HALVED_HZ, 0.4 * sample_rate_hz), sample_rate_hz)
     return np.concatenate([section, section])
 
 

@@ -18,11 +18,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import scipy
-
 from scene2hap.audio.anchor.whole_sound import BAND_Q, CARRIER_RANGE_HZ, HIGHEST_PEAK_DB, best_carrier_hz, is_beep
 from scene2hap.audio.levels import drive_db, sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.second_order import high_pass
 from scene2hap.audio.spectra.heard import heard_sections
 from scene2hap.audio.tactile.adaptive import Adaptive, band_around
 from scene2hap.audio.tactile.attacks import EmphasizedAttacks
@@ -57,9 +56,7 @@ class Auto(Adaptive):
         beep_hz = _beep_hz(context)
         if beep_hz is not None:
             # This high-pass removes hum and noise of the room, which would fill the pauses of the beep.
-            above = scipy.signal.butter(
-                2, min(0.5 * beep_hz, 0.4 * sample_rate_hz), "highpass", fs=sample_rate_hz, output="sos"
-            )
+            above = high_pass(min(0.5 * beep_hz, 0.4 * sample_rate_hz), sample_rate_hz)
             stages: list[Stage] = [SosStage(above), *EnvelopeCarrier().stream(sample_rate_hz, context).stages]
         else:
             q = self.q if context.rough_hz is None else max(self.q, _ROUGH_BED_Q)

@@ -16,8 +16,8 @@ import math
 from collections import deque
 
 import numpy as np
-import scipy
 
+from scene2hap.audio.second_order import high_pass
 from scene2hap.audio.tactile.onsets import STEP_S, OnsetDetector, PendingOnset
 from scene2hap.audio.tactile.stages import Signal, SosStage, Stage
 from scene2hap.audio.tactile.step_energies import mean_squares
@@ -56,8 +56,7 @@ class WithBursts(Stage):
         self._bed, self._rate_hz = bed, sample_rate_hz
         self._share = None if bed_db is None else 10 ** (bed_db / 10)
         self.step: int = max(1, round(STEP_S * sample_rate_hz))
-        ticks_hz = min(TICKS_HZ, 0.4 * sample_rate_hz)
-        self._high = SosStage(scipy.signal.butter(2, ticks_hz, "highpass", fs=sample_rate_hz, output="sos"))
+        self._high = SosStage(high_pass(min(TICKS_HZ, 0.4 * sample_rate_hz), sample_rate_hz))
         self._waiting = np.empty(0)  # samples whose onsets are not decided
         self._detector, self._n_made = OnsetDetector(spares_sustained=bed_follows), 0
         self._n_around = max(1, round(AROUND_S * sample_rate_hz))

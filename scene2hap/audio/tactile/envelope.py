@@ -14,9 +14,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.second_order import low_pass
 from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.stages import Signal, SosStage, Stage, StageStream
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ
@@ -54,7 +54,7 @@ class EnvelopeCarrier:
 
 class _EnvelopeStage(Stage):
     def __init__(self, carrier_hz: float, envelope_hz: float, sample_rate_hz: float) -> None:
-        self._smooth = SosStage(scipy.signal.butter(2, envelope_hz, fs=sample_rate_hz, output="sos"))
+        self._smooth = SosStage(low_pass(envelope_hz, sample_rate_hz))
         self._carrier = Oscillator(carrier_hz, sample_rate_hz)
         self._position = 0
 

@@ -9,9 +9,9 @@ buzz above the band of touch.
 from __future__ import annotations
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
+from scene2hap.audio.second_order import low_pass
 from scene2hap.audio.tactile.stages import Signal, SosStage, Stage
 from scene2hap.compiled import compiled
 
@@ -38,7 +38,7 @@ class Roughened(Stage):
         self, bed: Stage, band: Stage, line: Stage, rough_hz: float, sample_rate_hz: float, *, depth: float = DEPTH
     ) -> None:
         self._bed, self._band, self._line, self._depth = bed, band, line, depth
-        self._envelope = SosStage(scipy.signal.butter(2, rough_hz / _SLOWER, fs=sample_rate_hz, output="sos"))
+        self._envelope = SosStage(low_pass(rough_hz / _SLOWER, sample_rate_hz))
         self._low = self._mean = np.empty(0)  # low component and its mean size, as long as the bed is late
 
     def run(self, x: Signal) -> Signal:

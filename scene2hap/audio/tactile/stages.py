@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 import scipy
@@ -22,6 +23,8 @@ from scene2hap.errors import AudioError
 Signal = NDArray[np.float64]
 
 LOWEST_FELT_HZ = TACTILE_RANGE_HZ[0]
+_RIPPLE_DB, _STOP_DB = 0.05, 70.0
+"""Ripple and stop band of the low-pass of `ShiftStage` [dB]."""
 _CACHED = 65_536
 """Samples per pass: passes that fit the processor's cache are twice as fast as one pass over a long sound."""
 
@@ -183,7 +186,6 @@ class ShiftStage(Stage):
     Source: D. K. Weaver, "A third method of generation and detection of single-sideband signals", Proc. IRE 44, 1956.
     """
 
-    _RIPPLE_DB, _STOP_DB = 0.05, 70.0
     _WIDEST, _NARROWEST = 0.3, 0.08
     """Bounds of the transition band of h, as shares of w. Elliptic filters of order 8 to 10 reach them."""
 
@@ -194,12 +196,7 @@ class ShiftStage(Stage):
         stop = width + min(max(low_hz - lowest_hz, self._NARROWEST * width), self._WIDEST * width)
         self._down = Oscillator(middle_hz, sample_rate_hz)
         self._up = Oscillator(middle_hz + shift_hz, sample_rate_hz)
-        order, _ = scipy.signal.ellipord(
-            width, min(stop, 0.49 * sample_rate_hz), self._RIPPLE_DB, self._STOP_DB, fs=sample_rate_hz
-        )
-        self._sections = scipy.signal.ellip(
-            order, self._RIPPLE_DB, self._STOP_DB, width, fs=sample_rate_hz, output="sos"
-        )
+        self._sections = _steep_low_pass(width, min(stop, 0.49 * sample_rate_hz), sample_rate_hz)
         self._state = np.zeros((len(self._sections), 2, 2))
         self._position = 0
         self._slow = 2.0 * np.pi * 0.01 * width / sample_rate_hz  # [rad/sample], where the delay is as at 0 Hz
@@ -219,3 +216,10 @@ class ShiftStage(Stage):
         y = self._up.joined(z, self._position)
         self._position += len(x)
         return np.asarray(2.0 * y)
+
+
+@lru_cache(maxsize=8)
+def _steep_low_pass(pass_hz: float, stop_hz: float, sample_rate_hz: float) -> Signal:
+    """Return an elliptic low-pass (n_sections, 6). The streams of a sound's channels share it."""
+    order, _ = scipy.signal.ellipord(pass_hz, stop_hz, _RIPPLE_DB, _STOP_DB, fs=sample_rate_hz)
+    return np.asarray(scipy.signal.ellip(order, _RIPPLE_DB, _STOP_DB, pass_hz, fs=sample_rate_hz, output="sos"))

@@ -2,28 +2,19 @@
 
 Pacinian corpuscles detect best near 250 Hz; frequencies far from it are dropped.
 
-    g = tan(pi f_c / f_s)   warped centre frequency [-]         k = 1 / Q   damping [-]
-    H(z) = g k (1 - z^-2) / (1 + g k + g^2 + 2 (g^2 - 1) z^-1 + (1 - g k + g^2) z^-2)
-
-This is the trapezoidal (TPT) state-variable filter. Its band-pass output is multiplied by k, for 0 dB at f_c. It is
-written as one biquad, since a biquad runs in compiled code. While centre and Q are constant, both are the same filter.
-
-Source: A. Simper, "Linear trapezoidal state variable filter" (Cytomic, 2013); R. Bristow-Johnson, "Audio EQ cookbook",
-band-pass with constant 0 dB peak gain. Differs: the paper used Max/MSP's svf~ (Chamberlin's form, which becomes
-unstable near a sixth of the sample rate) at a resonance that the paper does not state.
+It is the band-pass of `second_order`. Differs: the paper used Max/MSP's svf~ (Chamberlin's form, which becomes unstable
+near a sixth of the sample rate) at a resonance that the paper does not state.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.second_order import band_pass
 from scene2hap.audio.tactile.stages import SosStage, StageStream
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import ConfigError
 
 _HIGHEST_CENTER = 0.49
@@ -54,7 +45,7 @@ class SvfBandpass:
         """Start a filter at a sample rate; the context has no effect."""
         return StageStream(SosStage(self.section(sample_rate_hz)))
 
-    def section(self, sample_rate_hz: float) -> NDArray[np.float64]:
+    def section(self, sample_rate_hz: float) -> Floats:
         """Return the filter as one second-order section (1, 6): b0 b1 b2 a0 a1 a2."""
         rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=ConfigError)
         checks.number(
@@ -65,7 +56,4 @@ class SvfBandpass:
             error=ConfigError,
             hint=f"At {rate:g} Hz choose a lower centre, or bring the sound to a higher rate.",
         )
-        g = math.tan(math.pi * self.center_hz / rate)
-        k = 1.0 / self.q
-        a0 = 1.0 + g * k + g * g
-        return np.array([[g * k, 0.0, -g * k, a0, 2.0 * (g * g - 1.0), 1.0 - g * k + g * g]]) / a0
+        return band_pass(self.center_hz, self.q, rate)
