@@ -11,6 +11,7 @@ depends on poses alone.
 from __future__ import annotations
 
 import math
+from functools import cached_property
 
 import numpy as np
 
@@ -19,7 +20,6 @@ from scene2hap.contact.body import Body, box_in_frame
 from scene2hap.contact.geometry.planes import Plane, floor_at, roof_at, wall_at
 from scene2hap.contact.geometry.triangle_tree import ALL, meeting
 from scene2hap.contact.geometry.vectors import AABB
-from scene2hap.contact.lazy import lazy
 from scene2hap.contact.ledge import Flat, FreeRegion, VerticalAxis
 from scene2hap.contact.mesh_distance import INSET, INSET_M
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m, play_reach_m, upper_of
@@ -39,7 +39,7 @@ class FreeSpace:
         self.host: Body = host
         self._own = host.stance.upright
 
-    @lazy
+    @cached_property
     def region_below(self) -> FreeRegion | None:
         """The free region around the guest and the path of its fall, or of the host's fall onto it.
 
@@ -58,7 +58,7 @@ class FreeSpace:
 
         return host.free_regions.find(guest.id, serves, lambda: _computed_region(host, own, taken, foot))
 
-    @lazy
+    @cached_property
     def empty_region(self) -> FreeRegion | None:
         """A region in which the host has nothing within the distance at which the two could touch or hang, if any."""
         guest, host, own, reach_m = self.guest, self.host, self._own, _reach_m(self.guest)
@@ -84,7 +84,7 @@ class FreeSpace:
         corners = tuple([(a * u + c * v, b * u + d * v) for u, v in ((u0, v0), (u1, v0), (u1, v1), (u0, v1))])
         return TopFace(corners, known.top_m, ((a, b, u0), (c, d, v0), (-a, -b, -u1), (-c, -d, -v1)))
 
-    @lazy
+    @cached_property
     def _column(self) -> AABB:
         """A box (u, v, h) around the guest and the path of its fall, or of the host's onto it, in the host's frame."""
         guest, host, own, up = self.guest, self.host, self._own, self.guest.up_axis

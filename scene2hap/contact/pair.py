@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container
+from functools import cached_property
 
 from scene2hap.common.arrays import Floats
 from scene2hap.contact.body import Body, roles
@@ -15,7 +16,6 @@ from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.hinge import HingedBodies, pivot_m
-from scene2hap.contact.lazy import lazy
 from scene2hap.contact.level import Rest, rest_on
 from scene2hap.contact.mesh_distance import Gap, MeshPair
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, upper_of
@@ -61,7 +61,7 @@ class BodyPair:
                 self._first_fall_m = self._mesh_pair.first_drop_m(faller, fall_reach_m(faller.size_m), TOUCH_M)
         return self._first_fall_m
 
-    @lazy
+    @cached_property
     def falls(self) -> Floats | None:
         """The fall distance of each triangle of the faller onto the other body [m]; see `MeshPair.drops`."""
         faller, _ = self.falling
@@ -79,7 +79,7 @@ class BodyPair:
         gap = self._gap
         return gap if gap is not None and gap.distance_m <= within_m else None
 
-    @lazy
+    @cached_property
     def enclosed(self) -> tuple[float, float]:
         """The weight and play of a contact by enclosure; see `enclosure.enclosed`."""
         return enclosed(self.a, self.b)
@@ -94,7 +94,7 @@ class BodyPair:
             self._points[key] = tuple([ends.middle_m for ends in self._mesh_pair.patch(way_m, within_m)])
         return self._points[key]
 
-    @lazy
+    @cached_property
     def _mesh_pair(self) -> MeshPair:
         return MeshPair(self.a, self.b)
 

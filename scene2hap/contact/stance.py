@@ -7,6 +7,7 @@ plane has coordinates (u, v), along the two world axes that are not up.
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +16,6 @@ from scene2hap.contact.base_face import across
 from scene2hap.contact.geometry.planes import Footprint
 from scene2hap.contact.geometry.polygons import Point, edges_of, turned_outline
 from scene2hap.contact.geometry.vectors import Rows, Triple, rotated
-from scene2hap.contact.lazy import lazy
 from scene2hap.contact.ledge import VerticalAxis
 from scene2hap.contact.shape import Shape
 
@@ -106,7 +106,7 @@ class Stance:
         """Return the shape with another rotation."""
         return Stance(self.shape, rotation_xyzw, self.up_axis)
 
-    @lazy
+    @cached_property
     def posed_base_face(self) -> PosedBaseFace:
         """The base face at this rotation."""
         base_face = self.shape.base_face(self.way_up)
@@ -116,17 +116,17 @@ class Stance:
         points = turned_outline(base_face.points_m, self.rows[0], self.rows[self.v_axis])
         return PosedBaseFace(points, height, (u, v), base_face.radius_m, base_face.is_filled)
 
-    @lazy
+    @cached_property
     def base_outline(self) -> tuple[Point, ...]:
         """The outline of the base face (support polygon), relative to the position [m]."""
         return turned_outline(self.shape.base_face(self.way_up).outline_m, self.rows[0], self.rows[self.v_axis])
 
-    @lazy
+    @cached_property
     def base_edges(self) -> tuple[Triple, ...]:
         """The edges of `base_outline`, in the form of `TopFace.edges`."""
         return edges_of(self.base_outline)
 
-    @lazy
+    @cached_property
     def top_face(self) -> TopFace | None:
         """The top face at this rotation, None unless it is level and convex."""
         top_m = self.shape.top(self.way_up)
@@ -136,7 +136,7 @@ class Stance:
         outline = tuple([(u, v) for u, v, _ in corners])
         return TopFace(outline, sum(h for _, _, h in corners) / len(corners), edges_of(outline))
 
-    @lazy
+    @cached_property
     def lean(self) -> Tilt | None:
         """The tilt of the vertical axis of the shape's frame, None if no axis is near the vertical."""
         up = self.rows[self.up_axis]
@@ -145,13 +145,13 @@ class Stance:
         tilt = math.hypot(up[u], up[v])
         return Tilt(VerticalAxis(axis, 1 if up[axis] > 0 else -1, u, v), tilt) if tilt <= _MOST_LEAN else None
 
-    @lazy
+    @cached_property
     def upright(self) -> VerticalAxis | None:
         """The vertical axis of the shape's frame, None if it leans so much that its level faces have no one height."""
         lean = self.lean
         return lean.own if lean is not None and lean.tilt * self.shape.size_m <= _MOST_TILT_M else None
 
-    @lazy
+    @cached_property
     def footprint(self) -> Footprint:
         """The projection onto the level plane: of the oriented box if it stands upright, else of the AABB."""
         lean, low, high, half = self.lean, self.low, self.high, self.shape.half
@@ -162,7 +162,7 @@ class Stance:
         a_u, a_v = self.rows[0][u], self.rows[self.v_axis][u]
         return Footprint(a_u, a_v, half[u] + more_m, half[v] + more_m, self.shape.radius_m(axis) + more_m)
 
-    @lazy
+    @cached_property
     def heading(self) -> Point:
         """A unit vector in the level plane that rotates with the shape."""
         return self._turned(across(self.way_up))[:2]
