@@ -16,17 +16,17 @@ from functools import cached_property
 import numpy as np
 
 from scene2hap.common.arrays import Bools, Indices
-from scene2hap.contact.body import Body, box_in_frame
-from scene2hap.contact.geometry.planes import Plane, floor_at, roof_at, wall_at
+from scene2hap.contact.body import Body, TopFace, box_in_frame
+from scene2hap.contact.geometry.level_plane import Plane, floor_at, roof_at, wall_at
 from scene2hap.contact.geometry.triangle_tree import ALL, meeting
 from scene2hap.contact.geometry.vectors import AABB
 from scene2hap.contact.ledge import Flat, FreeRegion, VerticalAxis
 from scene2hap.contact.mesh_distance import INSET, INSET_M
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m, play_reach_m, upper_of
-from scene2hap.contact.stance import TopFace
 
 _AROUND_M = 0.8  # The host is searched this far beyond a guest, so that later guests can use the region.
-_MANY_CORNERS = 8  # An outline with more corners is replaced by its circle.
+MANY_CORNERS = 8
+"""An outline with more corners is replaced by its circle."""
 _ROUNDING_M = 2e-6
 _NO_LEDGE: Flat = (math.inf, math.inf, -math.inf, -math.inf)
 
@@ -143,7 +143,7 @@ def _foot(guest: Body, host: Body, own: VerticalAxis) -> Flat:
     v_axis = 3 - guest.up_axis
     x, y = guest.position_m[0] - host.position_m[0], guest.position_m[v_axis] - host.position_m[v_axis]
     a, b, c, d = _turn(host, own)
-    if len(outline := guest.stance.base_outline) > _MANY_CORNERS:
+    if len(outline := guest.stance.base_outline) > MANY_CORNERS:
         _, _, (p, q), r, _ = guest.stance.posed_base_face
         u, v, hu = a * (x + p) + b * (y + q), c * (x + p) + d * (y + q), max(r - _ROUNDING_M, 0.0)
         return (u - hu, v - hu, u + hu, v + hu)

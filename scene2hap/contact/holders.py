@@ -13,9 +13,8 @@ from scene2hap.contact.body import Body, apart_by, box_distance_m
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.junction import Junction, Pair
-from scene2hap.contact.level import rest_points
 from scene2hap.contact.mesh_distance import Gap
-from scene2hap.contact.pair import NEEDS_TRIANGLES, BodyPair, BodyPairs, support_normal
+from scene2hap.contact.pair import NEEDS_TRIANGLES, BodyPair, BodyPairs, rest_points, support_normal
 from scene2hap.contact.rule import (
     CLEAR_M,
     TOUCH_M,

@@ -14,8 +14,8 @@ from scene2hap.common.arrays import Floats
 from scene2hap.contact.base_face import BaseFace, base_face_of, feet_m, top_of, triples, uneven_m
 from scene2hap.contact.geometry.boxes import Boxes, boxes_of
 from scene2hap.contact.geometry.features import Features, features_of
-from scene2hap.contact.geometry.rays import first_hits
 from scene2hap.contact.geometry.triangle_tree import TriangleTree
+from scene2hap.contact.geometry.triangles import first_hits
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.ledge import Ledges, VerticalAxis
 from scene2hap.scene.shapes import TriMesh

@@ -9,13 +9,12 @@ from hypothesis import given, settings, strategies as st
 
 from contact_scenes import box, boxes, chair, house, pairs, scene
 from scene2hap.contact import free_space
-from scene2hap.contact.body import Body
+from scene2hap.contact.body import Body, Stance
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.ledge import FreeRegion, FreeRegions, VerticalAxis
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m
-from scene2hap.contact.stance import Stance
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 
