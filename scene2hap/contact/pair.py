@@ -167,7 +167,6 @@ class BodyPair:
             self.rest = rest_of(upper, b if upper is a else a, self.space)
             self.faller = None if self.rest is None else upper.id
         self._first_fall_m: float | None = None
-        self._points: dict[tuple[Triple, float], tuple[Triple, ...]] = {}
         # The distance up to which the gap was searched; -1 before the first search.
         self._gap_within_m = -1.0
         self._gap: Gap | None = None
@@ -213,10 +212,7 @@ class BodyPair:
         of two hinged bodies, their pivot alone."""
         if self.pivot_m is not None:
             return (self.pivot_m,)
-        key = (way_m, within_m)
-        if key not in self._points:
-            self._points[key] = tuple([ends.middle_m for ends in self._mesh_pair.patch(way_m, within_m)])
-        return self._points[key]
+        return tuple([ends.middle_m for ends in self._mesh_pair.patch(way_m, within_m)])
 
     @cached_property
     def _mesh_pair(self) -> MeshPair:
