@@ -30,7 +30,7 @@ def compiled(plain: _Kernel) -> _Kernel:
 
 def are_in_use() -> bool:
     """Return True if compiled kernels exist and are not switched off."""
-    return _IS_WANTED and find_spec("scene2hap.contact._track") is not None
+    return _IS_WANTED and find_spec("scene2hap.contact._certificate") is not None
 
 
 def _twin(plain: _Kernel) -> _Kernel | None:

@@ -33,7 +33,7 @@ _LARGE_M = 2.0  # Larger objects are not moved.
 @contextmanager
 def without_free_space() -> Iterator[None]:
     """Disable free space, so that triangles decide all contacts."""
-    with mock.patch("scene2hap.contact.stance.Stance.upright", None):
+    with mock.patch("scene2hap.contact.body.Stance.upright", None):
         yield
 
 

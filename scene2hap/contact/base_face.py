@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common.arrays import Floats
-from scene2hap.contact.geometry.polygons import Point, turned_outline
+from scene2hap.contact.geometry.level_plane import Point, turned_outline
 from scene2hap.contact.geometry.spread import spread
 from scene2hap.contact.geometry.vectors import Rows, Triple, along, cross, highest, upright_frame
 

@@ -9,7 +9,7 @@ from scene2hap.contact.body import Body, roles
 from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.certificate import Certificate, Extent, Resting, resting_on, separated, standing_planes
 from scene2hap.contact.free_space import FreeSpace
-from scene2hap.contact.geometry.planes import Plane
+from scene2hap.contact.geometry.level_plane import Plane
 from scene2hap.contact.hinge import are_hinged
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.pair import BodyPairs

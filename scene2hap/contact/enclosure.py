@@ -17,8 +17,8 @@ import numpy as np
 
 from scene2hap.common.arrays import Floats
 from scene2hap.contact.body import Body, box_in_frame, roles
-from scene2hap.contact.geometry.rays import first_hits
 from scene2hap.contact.geometry.triangle_tree import ALL, meeting
+from scene2hap.contact.geometry.triangles import first_hits
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.rule import OUTSIDE_SHARE, SIDE_SHARE, play_reach_m, weight
 

@@ -11,22 +11,22 @@ depends on poses alone.
 from __future__ import annotations
 
 import math
+from functools import cached_property
 
 import numpy as np
 
 from scene2hap.common.arrays import Bools, Indices
-from scene2hap.contact.body import Body, box_in_frame
-from scene2hap.contact.geometry.planes import Plane, floor_at, roof_at, wall_at
+from scene2hap.contact.body import Body, TopFace, box_in_frame
+from scene2hap.contact.geometry.level_plane import Plane, floor_at, roof_at, wall_at
 from scene2hap.contact.geometry.triangle_tree import ALL, meeting
 from scene2hap.contact.geometry.vectors import AABB
-from scene2hap.contact.lazy import lazy
 from scene2hap.contact.ledge import Flat, FreeRegion, VerticalAxis
 from scene2hap.contact.mesh_distance import INSET, INSET_M
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m, play_reach_m, upper_of
-from scene2hap.contact.stance import TopFace
 
 _AROUND_M = 0.8  # The host is searched this far beyond a guest, so that later guests can use the region.
-_MANY_CORNERS = 8  # An outline with more corners is replaced by its circle.
+MANY_CORNERS = 8
+"""An outline with more corners is replaced by its circle."""
 _ROUNDING_M = 2e-6
 _NO_LEDGE: Flat = (math.inf, math.inf, -math.inf, -math.inf)
 
@@ -39,7 +39,7 @@ class FreeSpace:
         self.host: Body = host
         self._own = host.stance.upright
 
-    @lazy
+    @cached_property
     def region_below(self) -> FreeRegion | None:
         """The free region around the guest and the path of its fall, or of the host's fall onto it.
 
@@ -56,12 +56,12 @@ class FreeSpace:
                 return False
             return known.top_m is None or (low <= known.top_m <= high and known.bears(foot))
 
-        return host.free_regions.find(guest.id, serves, lambda: _computed_region(host, own, taken, foot))
+        return host.free_regions.find(serves, lambda: _computed_region(host, own, taken, foot))
 
-    @lazy
+    @cached_property
     def empty_region(self) -> FreeRegion | None:
         """A region in which the host has nothing within the distance at which the two could touch or hang, if any."""
-        guest, host, own, reach_m = self.guest, self.host, self._own, _reach_m(self.guest)
+        host, own, reach_m = self.host, self._own, _reach_m(self.guest)
         if own is None:
             return None
         (u0, v0, h0), (u1, v1, h1) = self._column
@@ -70,7 +70,7 @@ class FreeSpace:
         def serves(known: FreeRegion) -> bool:
             return known.own == own and known.top_m is None and known.holds(taken)
 
-        return host.free_regions.find(guest.id, serves, lambda: _empty_region(host, own, taken))
+        return host.free_regions.find(serves, lambda: _empty_region(host, own, taken))
 
     @property
     def ledge_face(self) -> TopFace:
@@ -84,7 +84,7 @@ class FreeSpace:
         corners = tuple([(a * u + c * v, b * u + d * v) for u, v in ((u0, v0), (u1, v0), (u1, v1), (u0, v1))])
         return TopFace(corners, known.top_m, ((a, b, u0), (c, d, v0), (-a, -b, -u1), (-c, -d, -v1)))
 
-    @lazy
+    @cached_property
     def _column(self) -> AABB:
         """A box (u, v, h) around the guest and the path of its fall, or of the host's onto it, in the host's frame."""
         guest, host, own, up = self.guest, self.host, self._own, self.guest.up_axis
@@ -143,7 +143,7 @@ def _foot(guest: Body, host: Body, own: VerticalAxis) -> Flat:
     v_axis = 3 - guest.up_axis
     x, y = guest.position_m[0] - host.position_m[0], guest.position_m[v_axis] - host.position_m[v_axis]
     a, b, c, d = _turn(host, own)
-    if len(outline := guest.stance.base_outline) > _MANY_CORNERS:
+    if len(outline := guest.stance.base_outline) > MANY_CORNERS:
         _, _, (p, q), r, _ = guest.stance.posed_base_face
         u, v, hu = a * (x + p) + b * (y + q), c * (x + p) + d * (y + q), max(r - _ROUNDING_M, 0.0)
         return (u - hu, v - hu, u + hu, v + hu)

@@ -20,7 +20,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -71,10 +70,6 @@ OUTSIDE_SHARE = 0.5
 """Share of its box outside the other's at which an object ceases to be enclosed."""
 
 
-# Size of the caches of reaches by object size, since each reach is used some thirty times a frame.
-_SIZES = 4096
-
-
 def weight(gap_m: float, tolerance_m: float) -> float:
     """Return the weight of a gap: 1 up to 2/3 of the tolerance, then half a cosine down to 0 at the tolerance.
 
@@ -86,7 +81,6 @@ def weight(gap_m: float, tolerance_m: float) -> float:
     return 1.0 if x <= 0 else 0.0 if x >= 1 else 0.5 * (1 + math.cos(math.pi * x))
 
 
-@lru_cache(_SIZES)
 def slack_m(size_m: float, tolerance_m: float = TOUCH_M) -> float:
     """Return how much farther apart than its nearest points a contact patch may be [m], at most the tolerance.
 
@@ -95,19 +89,16 @@ def slack_m(size_m: float, tolerance_m: float = TOUCH_M) -> float:
     return min(max(_SLACK * tolerance_m, _SLACK_SIZES * size_m), tolerance_m)
 
 
-@lru_cache(_SIZES)
 def fall_reach_m(size_m: float) -> float:
     """Return how far an object with this diagonal may hover above its support [m]."""
     return min(_FALL_REACH_M, _FALL_REACH_SIZES * size_m)
 
 
-@lru_cache(_SIZES)
 def hang_reach_m(size_m: float) -> float:
     """Return how far an object with this diagonal may be from its holder when it hangs [m]; below its fall reach."""
     return min(HANG_REACH_M, max(_HANG_REACH_SIZES * size_m, min(_GRIP_REACH_M, _GRIP_REACH_SIZES * size_m)))
 
 
-@lru_cache(_SIZES)
 def play_reach_m(size_m: float) -> float:
     """Return the play on either side with which an object of this diagonal may be enclosed [m]."""
     return min(_PLAY_M, _PLAY_SIZES * size_m)

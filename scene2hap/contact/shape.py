@@ -14,10 +14,9 @@ from scene2hap.common.arrays import Floats
 from scene2hap.contact.base_face import BaseFace, base_face_of, feet_m, top_of, triples, uneven_m
 from scene2hap.contact.geometry.boxes import Boxes, boxes_of
 from scene2hap.contact.geometry.features import Features, features_of
-from scene2hap.contact.geometry.rays import first_hits
 from scene2hap.contact.geometry.triangle_tree import TriangleTree
+from scene2hap.contact.geometry.triangles import first_hits
 from scene2hap.contact.geometry.vectors import Triple
-from scene2hap.contact.lazy import lazy
 from scene2hap.contact.ledge import Ledges, VerticalAxis
 from scene2hap.scene.shapes import TriMesh
 
@@ -44,15 +43,13 @@ class Shape:
         self._uneven_m, self._feet_m = uneven_m(self.size_m), feet_m(self.size_m)
         self.middle: Triple = triples((self.low + self.high)[None] / 2)[0]
         self.half: Triple = triples((self.high - self.low)[None] / 2)[0]
+        self._features: Features | None = None
+        self._tree: TriangleTree | None = None
+        self._sides: Floats | None = None
         self._base_faces: dict[Triple, BaseFace] = {}
         self._tops: dict[Triple, tuple[Triple, ...] | None] = {}
         self._ledges: dict[VerticalAxis, Ledges] = {}
         self._radii: dict[int, float] = {}
-
-    @lazy
-    def tree(self) -> TriangleTree:
-        """A bounding volume hierarchy over the triangles."""
-        return TriangleTree.over(self.triangles, self.boxes, self.features)
 
     def prepare(self) -> None:
         """Derive what contacts by triangles need, which else the first of them does. May run on another thread.
@@ -64,19 +61,36 @@ class Shape:
     @property
     def is_prepared(self) -> bool:
         """True if `prepare` has nothing left to do."""
-        return {"tree", "sides"} <= self.__dict__.keys()
+        return self._tree is not None and self._sides is not None
 
-    @lazy
+    # No `cached_property`: in Python 3.11 all shapes would share its lock, and a frame that needs one shape would wait
+    # for the worker that prepares another.
+
+    @property
+    def tree(self) -> TriangleTree:
+        """A bounding volume hierarchy over the triangles."""
+        if self._tree is None:
+            self._tree = TriangleTree.over(self.triangles, self.boxes, self.features)
+        return self._tree
+
+    @property
     def features(self) -> Features:
         """The corners and edges that the narrow phase tests."""
-        return features_of(self.triangles)
+        if self._features is None:
+            self._features = features_of(self.triangles)
+        return self._features
 
-    @lazy
+    @property
     def sides(self) -> Floats:
         """The first points of the surface that a grid of rays hits from each side of the box, (6, 64, 3) [m].
 
         The three lower sides come first; nan where a ray hits nothing.
         """
+        if self._sides is None:
+            self._sides = self._hit_sides()
+        return self._sides
+
+    def _hit_sides(self) -> Floats:
         edges = self.high - self.low
         grid = (np.arange(_N_RAYS) + 0.5) / _N_RAYS
         sides = np.empty((2, 3, _N_RAYS**2, 3))

@@ -25,8 +25,7 @@ from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.band_rms import BandRms, band_rms
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_thin
-from scene2hap.propagation.paths.gamma import Gamma, GammaAt, GammaOver, floored
-from scene2hap.propagation.paths.live_law import LiveLaw, LivePaths
+from scene2hap.propagation.paths.live_law import Gamma, GammaAt, GammaOver, LiveLaw, LivePaths, floored
 from scene2hap.propagation.paths.prepared_paths import Arrivals, arrivals_at, cheapest_arrivals
 from scene2hap.propagation.plate import Plate, require_plate
 from scene2hap.propagation.points import as_points

@@ -17,8 +17,8 @@ import numpy as np
 
 from scene2hap.common.arrays import Floats, Indices
 from scene2hap.contact.geometry.boxes import Boxes
-from scene2hap.contact.geometry.nearest import nearest_points
 from scene2hap.contact.geometry.triangle_tree import ALL, meeting
+from scene2hap.contact.geometry.triangles import nearest_points
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose

@@ -1,4 +1,4 @@
-"""Distances of triangles, for many pairs at once.
+"""Triangles, many at once: distances of pairs, distances to points, and hits by segments.
 
 The nearest points of two triangles are a vertex and a point inside the other face, points on two edges, or the point
 where an edge intersects the other triangle. All of these local meetings are returned. Where faces lie on each other,
@@ -10,7 +10,8 @@ end to the other. A crossing of an edge is therefore *loose*, and no contact poi
 ends of the edge are within reach of the face, or the edges are within reach of each other on both sides of it.
 
 Source: C. Ericson, Real-Time Collision Detection (2005), section 5.1.9 (segments), 5.1.10 (triangles), 3.4 (barycentric
-coordinates). Differs: a vertex is only measured against the inside of a face; its edges are left to the segments.
+coordinates), 5.1.2 and 5.1.5 (points). Differs: a vertex is only measured against the inside of a face; its edges are
+left to the segments. Hits by segments: T. Möller, B. Trumbore, Journal of Graphics Tools 2 (1997) 21.
 
     p, q : (3, 3, n) float64 [m], axes, corners, and last the triangles, of which p[..., k] and q[..., k] are a pair
     s, t : place on an edge of p, of q, 0..1 [-]
@@ -24,12 +25,15 @@ from typing import NamedTuple
 import numpy as np
 
 from scene2hap.common.arrays import Bools, Floats
+from scene2hap.contact.geometry.boxes import Boxes, box_pairs
 from scene2hap.contact.geometry.features import Features
 from scene2hap.contact.geometry.vectors import cross, dot
 
-# Squared sine below which edges count as parallel and corners as collinear, since the result would be rounding noise.
+# Squared sine below which edges count as parallel and corners as collinear, since the result would be rounding noise;
+# and share below which a segment is along a face, which it does not hit.
 _PARALLEL = 1e-12
-# Points this little outside a triangle (in barycentric units) count as inside, or a corner on a shared edge is missed.
+# Points this little outside a triangle (in barycentric units) count as inside, or a corner on a shared edge is missed,
+# and a segment passes between the two triangles.
 _RIM = 1e-9
 _IN_PLANE_M = 1e-9
 _N_MEETINGS = 21
@@ -80,6 +84,56 @@ def heights(p: Floats, q: Floats) -> tuple[Floats, Floats]:
     np.negative(over[:, n:], out=found[3:6])
     found[6:] = _over_crossings(p, q)
     return np.fmin.reduce(found, axis=0, initial=np.inf), np.fmax.reduce(found, axis=0, initial=-np.inf)
+
+
+class Nearest(NamedTuple):
+    """The nearest points (3, n) [m], their distances (n,) [m], and the heights (n,) of the given points over the planes
+    [m], above 0 where the triangle's corners are counter-clockwise."""
+
+    points: Floats
+    distances: Floats
+    heights: Floats
+
+
+def nearest_points(p: Floats, triangles: Floats) -> Nearest:
+    """Return the nearest point of each triangle (3, 3, n) to its given point (3, n) [m].
+
+    It is the foot on the plane if that is inside the triangle, else on one of the edges. A triangle without area has
+    height 0.
+    """
+    edges = np.roll(triangles, -1, axis=1) - triangles
+    to_p = p[:, None] - triangles
+    lengths2 = dot(edges, edges)
+    shares = np.divide(dot(to_p, edges), lengths2, out=np.zeros_like(lengths2), where=lengths2 > 0.0)
+    beside = to_p - np.clip(shares, 0.0, 1.0) * edges
+    to_edges = np.sqrt(dot(beside, beside))
+    normals = cross(edges[:, 0], edges[:, 1])
+    areas = np.sqrt(dot(normals, normals))
+    has_area = areas > 0.0
+    units = np.divide(normals, areas, out=np.zeros_like(normals), where=has_area)
+    heights = dot(to_p[:, 0], units)
+    is_over = (dot(cross(edges, to_p), normals[:, None]) >= 0.0).all(axis=0) & has_area
+    nearest_edge = to_edges.argmin(axis=0)
+    columns = np.arange(len(heights))
+    away = np.where(is_over, heights * units, beside[:, nearest_edge, columns])
+    return Nearest(p - away, np.where(is_over, np.abs(heights), to_edges[nearest_edge, columns]), heights)
+
+
+def first_hits(start: Floats, way: Floats, triangles: Floats, boxes: Boxes) -> Floats:
+    """Return the first hit of each segment with the triangles (3, 3, m), as a share (n,) of its length; inf for none.
+
+    Parameters: start, way : start point and vector of each segment, (3, n) [m]; boxes : those of the triangles.
+    """
+    n = start.shape[1]
+    found = np.full(n, np.inf)
+    end = start + way
+    ways = Boxes(np.minimum(start, end), np.maximum(start, end))
+    if not n or not len(columns := boxes.meeting(ways.hull())):
+        return found
+    for i, j in box_pairs(ways, boxes.some(columns)):
+        share = _hit_shares(start.take(i, axis=1), way.take(i, axis=1), triangles.take(columns[j], axis=2))
+        np.minimum.at(found, i, share)
+    return found
 
 
 class _Faces(NamedTuple):
@@ -240,3 +294,18 @@ def _turn(x: Floats, y: Floats) -> Floats:
     """Return the third component of the cross product."""
     turn: Floats = x[0] * y[1] - x[1] * y[0]
     return turn
+
+
+def _hit_shares(start: Floats, way: Floats, triangles: Floats) -> Floats:
+    """Return the shares (n,) at which segments k hit triangles k (3, 3, n); inf for a miss."""
+    corner = triangles[:, 0]
+    u, v, w = triangles[:, 1] - corner, triangles[:, 2] - corner, start - corner
+    across = cross(way, v)
+    volume = dot(u, across)
+    scale = np.sqrt(dot(u, u) * dot(v, v) * dot(way, way))
+    crosses = np.abs(volume) > _PARALLEL * scale
+    volume = np.where(crosses, volume, 1.0)
+    beside = cross(w, u)
+    beta, gamma, share = dot(w, across) / volume, dot(way, beside) / volume, dot(v, beside) / volume
+    crosses &= (beta >= -_RIM) & (gamma >= -_RIM) & (beta + gamma <= 1 + _RIM) & (share >= 0) & (share <= 1)
+    return np.where(crosses, share, np.inf)

@@ -1,22 +1,24 @@
-"""The paper's law (`gamma`) over a contact graph that changes between queries.
+"""The paper's law by path cost, and its field over a contact graph that changes between queries.
 
-Gamma falls with the cost of the cheapest path (`LivePaths`), so the nearest of a hand's touches is the loudest. Costs
-are compared first, and the law is evaluated once for each hand and source.
+    Gamma = exp(-L sqrt(omega)), L the cost of the cheapest path
+
+Gamma falls with the cost (`LivePaths`), so the nearest of a hand's touches is the loudest. Costs are compared first,
+and the law is evaluated once for each hand and source.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from scene2hap.common.arrays import Floats
 from scene2hap.contact.junction import Junction
+from scene2hap.propagation.bands.band_rms import BandRms
 from scene2hap.propagation.live import CostsByHand, LiveField, TouchedPoint
 from scene2hap.propagation.paths.contact_paths import ContactPaths, Triple
-from scene2hap.propagation.paths.gamma import Gamma, GammaAt, floored
 
 if TYPE_CHECKING:
     from scene2hap.contact.graph import ContactGraph
@@ -131,6 +133,45 @@ class LivePaths:
             self._paths.update(contact, {})
         # The contact of `_POINT` itself costs nothing.
         return [cost - self._crossing_costs[1.0] for cost in found]
+
+
+class Gamma(Protocol):
+    """Attenuation as a function of path cost."""
+
+    def __call__(self, costs: CostsByHand, columns: Sequence[int] | None = None) -> Floats:
+        """Attenuation (n, n_columns, n_bands) [-] at n costs of each source in `columns`, None for all sources."""
+        ...
+
+
+class GammaAt:
+    """Gamma at one frequency [Hz] for each source, which is its only band."""
+
+    def __init__(self, frequencies_hz: Floats) -> None:
+        self._minus_root_omega = -np.sqrt(2 * math.pi * frequencies_hz)
+
+    def __call__(self, costs: CostsByHand | Floats, columns: Sequence[int] | None = None) -> Floats:
+        """See `Gamma`; one band. A single column of costs (n, 1) is that of all sources."""
+        minus_root_omega = self._minus_root_omega if columns is None else self._minus_root_omega.take(columns)
+        gamma: Floats = np.multiply(costs, minus_root_omega)
+        np.exp(gamma, out=gamma)
+        return gamma[:, :, None]
+
+
+class GammaOver:
+    """The root mean square of Gamma over bands."""
+
+    def __init__(self, bands: BandRms) -> None:
+        self._bands = bands
+
+    def __call__(self, costs: CostsByHand, columns: Sequence[int] | None = None) -> Floats:
+        """See `Gamma`; the same for all sources."""
+        gamma = self._bands([cost for row in costs for cost in row])
+        return gamma.reshape(len(costs), len(costs[0]) if costs else 0, gamma.shape[1])
+
+
+def floored(gamma: Floats, costs: CostsByHand | Floats, floor: float) -> Floats:
+    """Attenuation (n, n_columns, n_bands) of at least `floor` [-] wherever a source arrives at all."""
+    return np.maximum(gamma, floor * np.isfinite(costs)[:, :, None]) if floor else gamma
 
 
 class LiveLaw:

@@ -9,7 +9,7 @@ from hypothesis import given, settings, strategies as st
 from contact_scenes import Triple, box, boxes, floor, found, on_floor, points, scene, weight
 from scene2hap.contact.body import Body
 from scene2hap.contact.enclosure import enclosed, play_reach_m
-from scene2hap.contact.geometry.rays import first_hits
+from scene2hap.contact.geometry.triangles import first_hits
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose

@@ -10,10 +10,10 @@ from hypothesis import assume, given, settings, strategies as st
 from contact_scenes import box, boxes, thing
 from scene2hap.contact.base_face import outline
 from scene2hap.contact.body import Body
-from scene2hap.contact.geometry.polygons import clipped
+from scene2hap.contact.geometry.level_plane import clipped
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.contact.level import rest_on, rest_points
 from scene2hap.contact.mesh_distance import MeshPair
+from scene2hap.contact.pair import rest_on, rest_points
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import Box, TriMesh

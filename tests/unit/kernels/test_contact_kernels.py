@@ -9,12 +9,11 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from kernels import both, seeds, steady
-from scene2hap.contact.body import Body
+from scene2hap.contact.body import Body, Stance
+from scene2hap.contact.certificate import SupportFace
 from scene2hap.contact.geometry.vectors import upright_frame
 from scene2hap.contact.mesh_distance import ROUNDING_M, MeshPair
 from scene2hap.contact.shape import shape_of
-from scene2hap.contact.stance import Stance
-from scene2hap.contact.track import SupportFace
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import Box, TriMesh
 
@@ -30,7 +29,7 @@ def turned(rng: np.random.Generator, up_axis: int) -> tuple[float, float, float,
 @pytest.mark.parametrize("stands", [True, False])
 @pytest.mark.parametrize("up_axis", [1, 2])
 def test_kernels_track_moves_bit_for_bit(up_axis: int, stands: bool) -> None:
-    kinds, box, n_within = both("contact.track.Track"), Box((0.3, 0.2, 0.1)).mesh, 0
+    kinds, box, n_within = both("contact.certificate.Track"), Box((0.3, 0.2, 0.1)).mesh, 0
     for seed in range(150):
         rng = np.random.default_rng(seed)
         shape = shape_of(TriMesh(box.vertices_m + rng.uniform(-0.1, 0.1, 3), box.faces))
@@ -145,17 +144,17 @@ def test_kernels_intersect_outlines_bit_for_bit(seed: int) -> None:
         angles = np.sort(rng.uniform(0, 2 * math.pi, int(n)))
         ring = np.stack([np.cos(angles), rng.uniform(size=int(n)), np.sin(angles)], axis=1) + rng.choice([0.0, 0.5], 3)
         rows = Stance(shape_of(Box((0.1, 0.1, 0.1)).mesh), turned(rng, 1), 1).rows
-        plain, twin = both("contact.geometry.polygons.turned_outline")
+        plain, twin = both("contact.geometry.level_plane.turned_outline")
         outline = plain(ring.tolist(), rows[0], rows[2])
         assert twin(ring.tolist(), rows[0], rows[2]) == outline
         outlines.append(outline)
-    plain, twin = both("contact.geometry.polygons.edges_of")
+    plain, twin = both("contact.geometry.level_plane.edges_of")
     edges = plain(outlines[1])
     assert twin(outlines[1]) == edges
     for move in ((0.0, 0.0), tuple(rng.uniform(-1, 1, 2).tolist())):
-        plain, twin = both("contact.geometry.polygons.inside_edges")
+        plain, twin = both("contact.geometry.level_plane.inside_edges")
         assert twin(outlines[0], *move, edges) == plain(outlines[0], *move, edges)
-        plain, twin = both("contact.geometry.polygons.clipped")
+        plain, twin = both("contact.geometry.level_plane.clipped")
         for slack_m in (0.0, 0.001, 0.3):
             assert twin(outlines[0], *move, edges, slack_m) == plain(outlines[0], *move, edges, slack_m)
 

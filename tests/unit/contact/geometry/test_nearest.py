@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from scene2hap.contact.geometry.nearest import nearest_points
+from scene2hap.contact.geometry.triangles import nearest_points
 
 SOLIDS = {
     "box": trimesh.creation.box((0.4, 0.2, 0.03)),

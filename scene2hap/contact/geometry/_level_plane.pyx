@@ -1,4 +1,4 @@
-"""The compiled twins of the kernels in `polygons`."""
+"""The compiled twins of the kernels in `level_plane`."""
 
 from cpython.mem cimport PyMem_Free, PyMem_Malloc
 from libc.math cimport INFINITY, sqrt

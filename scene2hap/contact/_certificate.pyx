@@ -1,4 +1,4 @@
-"""The compiled twin of the kernel in `track`."""
+"""The compiled twin of the kernel in `certificate`."""
 
 from array import array
 
@@ -7,9 +7,9 @@ from libc.math cimport fabs
 
 cdef enum:
     MOST_POINTS = 4
-    MOST_CORNERS = 8  # as in `track`
+    MANY_CORNERS = 8  # as in `free_space`
 
-cdef double SURELY_M = 1e-9  # as in `track`
+cdef double INSIDE_M = 1e-9  # as in `certificate`
 
 
 cdef struct Wall:
@@ -191,13 +191,13 @@ cdef class Track:
                 corners = self.stance.base_outline
             numbers = array("d", [number for corner in corners for number in corner])
             self.outline = memoryview(numbers).cast("B").cast("d", (len(corners), 2))
-        if self.outline.shape[0] > MOST_CORNERS:
+        if self.outline.shape[0] > MANY_CORNERS:
             return False
         for i in range(self.outline.shape[0]):
             pu = u + a * self.outline[i, 0] + c * self.outline[i, 1]
             pv = v + a * self.outline[i, 1] - c * self.outline[i, 0]
             for k in range(self.n_edges):
-                if self.inside(k, pu, pv) < SURELY_M:
+                if self.inside(k, pu, pv) < INSIDE_M:
                     return False
         return True
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from scene2hap.contact.geometry.planes import Footprint, reach_along, separation
+from scene2hap.contact.geometry.level_plane import Footprint, reach_along, separation
 
 ANGLES, HALVES, PLACES = st.floats(0.0, 7.0), st.floats(0.0, 0.5), st.floats(-1.0, 1.0)
 
