@@ -161,7 +161,11 @@ class ContactFinder:
             if y in seen:
                 continue
             body_pair = self._pairs.made(body, other)
-            if body_pair.faller is None and body_pair.pivot_m is None and apart_by(body, other, TOUCH_M):
+            if (
+                body_pair.faller is None
+                and body_pair.pivot_m is None
+                and (apart_by(body, other, TOUCH_M) or body_pair.space.empty_region is not None)
+            ):
                 if self._pairs.drop(x, y) is not None:
                     dirty.add(pair_of(x, y))
             else:

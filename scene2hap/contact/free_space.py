@@ -56,12 +56,12 @@ class FreeSpace:
                 return False
             return known.top_m is None or (low <= known.top_m <= high and known.bears(foot))
 
-        return host.free_regions.find(serves, lambda: _computed_region(host, own, taken, foot))
+        return host.free_regions.find(guest.id, serves, lambda: _computed_region(host, own, taken, foot))
 
     @cached_property
     def empty_region(self) -> FreeRegion | None:
         """A region in which the host has nothing within the distance at which the two could touch or hang, if any."""
-        host, own, reach_m = self.host, self._own, _reach_m(self.guest)
+        guest, host, own, reach_m = self.guest, self.host, self._own, _reach_m(self.guest)
         if own is None:
             return None
         (u0, v0, h0), (u1, v1, h1) = self._column
@@ -70,7 +70,7 @@ class FreeSpace:
         def serves(known: FreeRegion) -> bool:
             return known.own == own and known.top_m is None and known.holds(taken)
 
-        return host.free_regions.find(serves, lambda: _empty_region(host, own, taken))
+        return host.free_regions.find(guest.id, serves, lambda: _empty_region(host, own, taken))
 
     @property
     def ledge_face(self) -> TopFace:

@@ -10,6 +10,7 @@ from collections.abc import Collection, Container, Iterable, Mapping
 from typing import NamedTuple
 
 from scene2hap.contact.body import Body, apart_by, box_distance_m
+from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.mesh_distance import Gap
@@ -167,6 +168,7 @@ class Holders:
             and y not in self._certified
             and not apart_by(body, other, reach_m)
             and not self._pairs.hinged.are_chained(x, y)
+            and not self._is_clear(body, other)
         ]
         if not larger:
             return {}
@@ -181,6 +183,14 @@ class Holders:
         return {
             y: Attachment((1 - supported) * share, gaps[y].way_m, direction(gaps[y])) for y, share in shares.items()
         }
+
+    def _is_clear(self, guest: Body, host: Body) -> bool:
+        """Return True if a larger body surely has nothing near a smaller one."""
+        body_pair = self._pairs.of[guest.id].get(host.id)
+        if body_pair is None:
+            return FreeSpace(guest, host).empty_region is not None
+        # Where one may rest on the other, something of the host is in the path of the fall.
+        return body_pair.faller is None and body_pair.space.empty_region is not None
 
     def _body_pair(self, x: str, y: str) -> BodyPair:
         body_pair = self._pairs.of[x].get(y)

@@ -29,6 +29,7 @@ _WELD_M = 1e-6  # Corners this near to each other are merged.
 _THIN_M2 = 1e-12  # Triangles with less area are ignored.
 _HALVINGS = 4  # Most halvings of a stretch where slanted rims are near.
 _MOST_REGIONS = 64  # of one host
+_MOST_GUESTS = 256  # of which one host knows the latest region
 
 
 class VerticalAxis(NamedTuple):
@@ -122,24 +123,31 @@ class FreeRegion(NamedTuple):
 
 
 class FreeRegions:
-    """The free regions of a host that guests used last. They depend on the host alone, so that guests share them."""
+    """The latest free regions of a host. They depend on the host alone, so that a guest can use another guest's."""
 
-    __slots__ = ("_latest",)
+    __slots__ = ("_latest", "_of_guests")
 
     def __init__(self) -> None:
         self._latest: deque[FreeRegion] = deque(maxlen=_MOST_REGIONS)
+        self._of_guests: dict[str, FreeRegion] = {}
 
-    def find(self, serves: Callable[[FreeRegion], bool], compute: Callable[[], FreeRegion | None]) -> FreeRegion | None:
-        """Return a region for which `serves` is True, else compute one, if possible."""
-        for k, known in enumerate(self._latest):
-            if serves(known):
-                # To the front, so that guests in motion find theirs first.
-                del self._latest[k]
-                self._latest.appendleft(known)
-                return known
-        found = compute()
-        if found is not None:
+    def find(
+        self, guest_id: str, serves: Callable[[FreeRegion], bool], compute: Callable[[], FreeRegion | None]
+    ) -> FreeRegion | None:
+        """Return a region for which `serves` is True, the guest's last one first; else compute one, if possible."""
+        known = self._of_guests.get(guest_id)
+        if known is not None and serves(known):
+            return known
+        found = next(filter(serves, self._latest), None)
+        if found is None:
+            found = compute()
+            if found is None:
+                return None
             self._latest.appendleft(found)
+        if len(self._of_guests) >= _MOST_GUESTS:
+            # Removed guests are not reported, so all are cleared. This costs each of the others one search.
+            self._of_guests.clear()
+        self._of_guests[guest_id] = found
         return found
 
 

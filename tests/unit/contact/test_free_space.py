@@ -145,22 +145,17 @@ def test_a_free_region_of_a_floor_serves_other_guests(monkeypatch: pytest.Monkey
         assert FreeSpace(guest, host).region_below is first
 
 
-def test_a_host_keeps_the_few_regions_that_were_used_last() -> None:
+def test_many_guests_keep_few_regions() -> None:
     regions = FreeRegions()
-
-    def region_at(n: int) -> FreeRegion:
-        return FreeRegion(VerticalAxis(1, 1, 0, 2), ((n, 0, 0), (n + 1, 1, 1)), None, (0, 0, 0, 0))
-
-    used = regions.find(lambda known: False, lambda: region_at(-1))
     for n in range(5000):
-        new = region_at(n)
-        assert regions.find(lambda known: False, lambda new=new: new) is new
-        assert regions.find(lambda known: known is used, lambda: None) is used
+        new = FreeRegion(VerticalAxis(1, 1, 0, 2), ((n, 0, 0), (n + 1, 1, 1)), None, (0, 0, 0, 0))
+        assert regions.find(f"copy_{n}", lambda known: False, lambda new=new: new) is new
     taken = (4990.2, 0.2, 0.2), (4990.4, 0.4, 0.4)
-    found = regions.find(lambda known: known.holds(taken), lambda: None)
+    found = regions.find("other", lambda known: known.holds(taken), lambda: None)
     assert found is not None
     assert found.box[0][0] == 4990
-    assert regions.find(lambda known: known.box[0][0] == 0, lambda: None) is None
+    assert regions.find("other", lambda known: known is found, lambda: None) is found
+    assert regions.find("old", lambda known: known.box[0][0] == 0, lambda: None) is None
 
 
 def test_a_leaning_host_has_no_free_region() -> None:
