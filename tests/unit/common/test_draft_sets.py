@@ -75,6 +75,32 @@ def test_without_locks_only_old_drafts_are_removed(tmp_path: Path, monkeypatch: 
     assert names(tmp_path) == sorted([new.name, "b.json", "b.wav"])
 
 
+@pytest.mark.skipif(os.name != "posix", reason="folders cannot be locked")
+def test_a_folder_that_is_replaced_meanwhile_is_locked_as_well(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As a save does with a bundle. In an earlier version the old folder was locked, and others removed the drafts."""
+    folder = tmp_path / "bundle"
+    folder.mkdir()
+    lock, replaced = folder_locks.fcntl.flock, []
+
+    def replace_and_lock(descriptor: int, kind: int) -> None:
+        if kind == folder_locks.fcntl.LOCK_SH and not replaced:
+            replaced.append(folder.rename(tmp_path / "old"))
+            folder.mkdir()
+        lock(descriptor, kind)
+
+    monkeypatch.setattr(folder_locks.fcntl, "flock", replace_and_lock)
+    with DraftSet() as drafts:
+        drafts.write(folder / "a.wav", b"half")
+        write_two(folder)
+        assert len(names(folder)) == 3
+    assert replaced
+
+
+def test_a_missing_folder_is_an_error(tmp_path: Path) -> None:
+    with DraftSet() as drafts, pytest.raises(FileNotFoundError):
+        drafts.write(tmp_path / "gone" / "a.wav", b"half")
+
+
 @pytest.mark.parametrize("name", ["n" * 251 + ".wav", "\u00fc" * 125 + ".json", "n" * 255])
 def test_the_longest_names_that_a_file_may_have_are_written(tmp_path: Path, name: str) -> None:
     with DraftSet() as drafts:
