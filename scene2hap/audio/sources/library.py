@@ -88,7 +88,8 @@ class FolderLibrary:
             elif len(short) < MAX_CANDIDATES:
                 short.append(clip)
         if short and not found:
-            titles = ", ".join(repr(clip.credit.title) for clip in short)
+            # Sorted, so that all states of an object have the same warning, which Python shows once.
+            titles = ", ".join(sorted(repr(clip.credit.title) for clip in short))
             warn_of(
                 f"{self.folder} has sounds of {description.own_word or description.object_category!r}, but none lasts "
                 f"more than {MIN_DURATION_S:g} s without its silent ends, so that none is used: {titles}. Record it "

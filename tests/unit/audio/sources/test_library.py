@@ -213,6 +213,8 @@ def test_sounds_that_are_all_too_short_are_said(tmp_path: Path) -> None:
     said = r"sounds of 'jackhammer', but none lasts more than 2\.5 s .*: 'jackhammer', 'old jackhammer'\. Record"
     with pytest.warns(ShortSound, match=said):
         assert len(titles(tmp_path, "jackhammer", "jackhammer hammering")) == 2
+    with pytest.warns(ShortSound, match=said):
+        titles(tmp_path, "jackhammer", "old jackhammer running down")
     fill(tmp_path, "new jackhammer.wav")
     assert len(titles(tmp_path, "jackhammer", "jackhammer hammering")) == 3
 
