@@ -4,18 +4,29 @@ from __future__ import annotations
 
 import re
 
-from scene2hap.audio.sources.word_stems import says_nothing, stems
+from scene2hap.audio.sources.word_stems import noun_phrase, says_nothing, stems
 from scene2hap.llm.lexicon.names import read_name
+from scene2hap.llm.lexicon.words import TOOL_WORDS
 
 
 def own_word(name: str, category: str) -> str:
-    """Return the author's word for an object: "windmill" of "SM_Windmill_02", a turbine.
+    """Return the author's word for an object: "windmill" of "SM_Windmill_02", a wind turbine.
 
-    A name that the lexicon cannot read, that it translates, or that it takes for another object stays whole, without
-    its numbers. Returns "" if the category is the same word, or if the word may be anything, such as "machine".
+    A name that the lexicon cannot read, that it translates, or that it takes for another kind of object stays whole,
+    but for numbers, single letters and the words of tools, as in "SM_Zorgon_A(Clone)". Returns "" if the category is
+    the same word, or if the word may be anything, such as "machine".
     """
     reading = read_name(name)
-    is_read = reading.row is not None and reading.row.noun == category and set(stems(reading.head)) <= set(stems(name))
-    word = reading.head if is_read else " ".join(re.findall(r"[^\W\d_]+", name))
+    is_read = (
+        reading.row is not None
+        and noun_phrase(reading.row.noun)[-1:] == noun_phrase(category)[-1:]
+        and set(stems(reading.head)) <= set(stems(name))
+    )
+    word = reading.head if is_read else " ".join(filter(_may_name, re.findall(r"[^\W\d_]+", name)))
     said = stems(word)
     return "" if set(said) == set(stems(category)) or all(map(says_nothing, said)) else word
+
+
+def _may_name(word: str) -> bool:
+    is_letter = len(word) == 1 and word.isascii()  # a Japanese noun may be one character
+    return not is_letter and word.casefold() not in TOOL_WORDS

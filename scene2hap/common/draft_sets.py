@@ -42,7 +42,9 @@ class DraftSet:
         if path.parent not in self._folders:
             self._folders.add(path.parent)
             _remove_abandoned(path.parent)
-            lock_folder(path.parent, self._held, wait=True, shared=True)
+            # Another process may replace the folder while this one waits, and then the lock is on the old one.
+            while lock_folder(path.parent, self._held, wait=True, shared=True) is False and path.parent.is_dir():
+                pass
         draft = draft_path(path, _KIND)
         self.drafts.append((draft, path))
         draft.write_bytes(content)

@@ -11,6 +11,13 @@ from pathlib import Path
 if sys.platform != "win32":
     import fcntl
 
+    def _release(descriptor: int) -> None:
+        # A child that was forked meanwhile has the descriptor, too, and would hold the lock until it ends.
+        with suppress(OSError):
+            fcntl.flock(descriptor, fcntl.LOCK_UN)
+        os.close(descriptor)
+
+
 ABANDONED_S = 86400.0
 """Age after which a draft counts as abandoned if folders cannot be locked [s]; assumed: writing takes seconds."""
 
@@ -23,7 +30,7 @@ def lock_folder(folder: Path, held: ExitStack, *, wait: bool = False, shared: bo
     try:
         if sys.platform != "win32":
             descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-            held.callback(os.close, descriptor)
+            held.callback(_release, descriptor)
             kind = fcntl.LOCK_SH if shared else fcntl.LOCK_EX
             fcntl.flock(descriptor, kind | (0 if wait else fcntl.LOCK_NB))
             return os.path.samestat(os.fstat(descriptor), os.stat(folder))

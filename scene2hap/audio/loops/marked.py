@@ -24,8 +24,8 @@ def marked_part(clip: AudioClip, marked: tuple[int, int]) -> AudioClip:
     if step > max(_LEAST_JUMP * peak, _MOST_OWN * float(own)):
         warn_of(
             f"the loop that {clip.credit.title!r} marks jumps where it repeats, by {step / peak:.0%} of its peak, "
-            f"{step / float(own):.0f} times its largest step elsewhere. This is heard and felt as a knock. Mark "
-            "another end in an audio editor, or delete the mark, and a seam is found.",
+            f"{step / float(own):.0f} times its largest step elsewhere. This is heard and felt as a knock. Unless "
+            "it is meant, mark another end in an audio editor, or delete the mark, and a seam is found.",
             LoopWarning,
         )
     return loop

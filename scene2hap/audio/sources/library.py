@@ -53,43 +53,50 @@ class FolderLibrary:
         Sounds with the author's word for the object come first, then those that also name what the object does. If one
         of them is long enough to be chosen, sounds that say less are left out. A sound with the right verb but another
         object does not match: a boiling kettle is no boiling pan. Nor does one that shares only a word for anything: a
-        sewing machine is no vending machine.
+        sewing machine is no vending machine. Sounds that are too short come last, as rows for the table of the choice.
         Raises: ConfigError: see `FolderLibrary`.
         Warns: UnreadableSound: a file that cannot be read was skipped; ShortSound: no sound is long enough.
         """
         self._require_folder()
         nouns, own = noun_phrase(description.object_category), set(stems(description.own_word))
         wanted = {*nouns, *own, *stems(description.keywords)}
-        doing = wanted - {*nouns, *own}
+        doing = set(stems(description.keywords)) - set(nouns)
         head = set(nouns[-2:] if nouns and says_nothing(nouns[-1]) else nouns[-1:])
 
         def rank(words: set[str]) -> tuple[bool, bool]:
-            return not own <= words, not doing & words
+            is_own = own <= words
+            # Of a "boiling pot", the verb is a word of the name as well.
+            return not is_own, not doing & (words - own if is_own else words)
 
         names = [name for name in (own, head) if name]
         matches = [entry for entry in self._entries() if any(name <= entry[1] for name in names)]
         matches.sort(key=lambda match: (*rank(match[1]), -len(wanted & match[1]), match[0].as_posix()))
         found: list[AudioClip] = []
-        enough: tuple[bool, bool] | None = None
+        short: list[AudioClip] = []
+        best: tuple[bool, bool] | None = None
         for path, words, credit in matches:
-            if len(found) == MAX_CANDIDATES or (enough is not None and rank(words) > enough):
+            if len(found) == MAX_CANDIDATES or (best is not None and rank(words) > best):
                 break
             try:
-                found.append(read_clip(path, replace(credit, query=description.keywords, origin="library")))
+                clip = read_clip(path, replace(credit, query=description.keywords, origin="library"))
             except AudioError as cause:
                 warn_of(f"skipped: {cause}", UnreadableSound)
-            else:
-                if enough is None and is_long_enough(found[-1]):
-                    enough = rank(words)
-        if found and enough is None:
-            titles = ", ".join(repr(clip.credit.title) for clip in found)
+                continue
+            if is_long_enough(clip):
+                found.append(clip)
+                best = best or rank(words)
+            elif len(short) < MAX_CANDIDATES:
+                short.append(clip)
+        if short and not found:
+            # Sorted, so that all states of an object have the same warning, which Python shows once.
+            titles = ", ".join(sorted(repr(clip.credit.title) for clip in short))
             warn_of(
                 f"{self.folder} has sounds of {description.own_word or description.object_category!r}, but none lasts "
                 f"more than {MIN_DURATION_S:g} s without its silent ends, so that none is used: {titles}. Record it "
                 "longer, or repeat it in an audio editor.",
                 ShortSound,
             )
-        return found
+        return [*found, *short][:MAX_CANDIDATES]
 
     def _require_folder(self) -> None:
         if not os.path.isdir(self.folder):

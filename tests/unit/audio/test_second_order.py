@@ -13,3 +13,12 @@ def test_low_and_high_pass_are_those_of_butterworth(cutoff_hz: float, rate_hz: f
     low, high = (butter(2, cutoff_hz, kind, fs=rate_hz, output="sos") for kind in ("lowpass", "highpass"))
     np.testing.assert_allclose(low_pass(cutoff_hz, rate_hz), low, rtol=1e-14)
     np.testing.assert_allclose(high_pass(cutoff_hz, rate_hz), high, rtol=1e-14)
+
+
+@pytest.mark.parametrize("rate_hz", [8_000, 192_000])
+@pytest.mark.parametrize("share", [0.4, 0.49, 0.499])
+def test_they_are_so_near_half_the_rate(share: float, rate_hz: float) -> None:
+    """Both designs lose digits there, since the tangent is near its pole."""
+    low, high = (butter(2, share * rate_hz, kind, fs=rate_hz, output="sos") for kind in ("lowpass", "highpass"))
+    np.testing.assert_allclose(low_pass(share * rate_hz, rate_hz), low, rtol=1e-11)
+    np.testing.assert_allclose(high_pass(share * rate_hz, rate_hz), high, rtol=1e-11)

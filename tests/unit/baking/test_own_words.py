@@ -18,16 +18,24 @@ from scene2hap.baking.own_words import own_word
     [
         ("windmill", "turbine", "windmill"),
         ("SM_Windmill_02(Clone)", "turbine", "windmill"),
+        # A model answers in its own words.
+        ("SM_Windmill_02", "wind turbine", "windmill"),
+        ("ringing_phone", "mobile phone", "phone"),
         ("mill", "milling machine", "mill"),
         ("Kühlschrank_2", "refrigerator", "Kühlschrank"),
         ("zorgon_07", "alien machine", "zorgon"),
+        ("SM_Zorgon_A(Clone)", "alien machine", "Zorgon"),
+        ("風車_2", "turbine", "風車"),
         # The model sees another object than the lexicon reads.
         ("fridge_door", "refrigerator", "fridge door"),
         # Words that say no more than the category.
         ("Fridge_01", "refrigerator", ""),
         ("chain saw", "chainsaw", ""),
         ("Machine_3", "vending machine", ""),
+        ("Running_Washer", "Washing Machine", ""),
         ("Object_12", "refrigerator", ""),
+        ("Cube.003", "fan", ""),
+        ("123", "fan", ""),
         ("", "fan", ""),
     ],
 )

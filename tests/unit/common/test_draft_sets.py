@@ -25,6 +25,25 @@ with DraftSet() as drafts:
 """
 
 
+FORKS = """
+import os, sys
+from contextlib import ExitStack
+from pathlib import Path
+from scene2hap.common.draft_sets import DraftSet
+from scene2hap.common.folder_locks import lock_folder
+folder = Path(sys.argv[1])
+reads, writes = os.pipe()
+with DraftSet() as drafts:
+    drafts.write(folder / "a.wav", b"half")
+    if os.fork() == 0:
+        os.close(writes)
+        os.read(reads, 1)  # until the parent ends
+        os._exit(0)
+with ExitStack() as held:
+    print(lock_folder(folder, held))
+"""
+
+
 def names(folder: Path) -> list[str]:
     return sorted(path.name for path in folder.iterdir())
 
@@ -73,6 +92,39 @@ def test_without_locks_only_old_drafts_are_removed(tmp_path: Path, monkeypatch: 
     os.utime(old, (then, then))
     write_two(tmp_path)
     assert names(tmp_path) == sorted([new.name, "b.json", "b.wav"])
+
+
+@pytest.mark.skipif(os.name != "posix", reason="folders cannot be locked")
+def test_a_folder_that_is_replaced_meanwhile_is_locked_as_well(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As a save does with a bundle. In an earlier version the old folder was locked, and others removed the drafts."""
+    folder = tmp_path / "bundle"
+    folder.mkdir()
+    lock, replaced = folder_locks.fcntl.flock, []
+
+    def replace_and_lock(descriptor: int, kind: int) -> None:
+        if kind == folder_locks.fcntl.LOCK_SH and not replaced:
+            replaced.append(folder.rename(tmp_path / "old"))
+            folder.mkdir()
+        lock(descriptor, kind)
+
+    monkeypatch.setattr(folder_locks.fcntl, "flock", replace_and_lock)
+    with DraftSet() as drafts:
+        drafts.write(folder / "a.wav", b"half")
+        write_two(folder)
+        assert len(names(folder)) == 3
+    assert replaced
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork")
+def test_a_child_that_was_forked_meanwhile_does_not_hold_the_lock(tmp_path: Path) -> None:
+    """In an earlier version a save of a bundle waited for a worker that was forked during an export into its folder."""
+    run = subprocess.run([sys.executable, "-c", FORKS, str(tmp_path)], capture_output=True, text=True, check=True)
+    assert run.stdout == "True\n"
+
+
+def test_a_missing_folder_is_an_error(tmp_path: Path) -> None:
+    with DraftSet() as drafts, pytest.raises(FileNotFoundError):
+        drafts.write(tmp_path / "gone" / "a.wav", b"half")
 
 
 @pytest.mark.parametrize("name", ["n" * 251 + ".wav", "\u00fc" * 125 + ".json", "n" * 255])

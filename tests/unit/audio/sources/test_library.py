@@ -54,6 +54,13 @@ def test_sounds_with_the_authors_word_come_alone(tmp_path: Path) -> None:
     assert FolderLibrary(fill(tmp_path, "computer monitor.wav")).find(monitor) == []
 
 
+def test_an_authors_word_may_say_what_the_object_does(tmp_path: Path) -> None:
+    """In an earlier version its verb did not count, so that the sound of another verb was chosen."""
+    fill(tmp_path, "pan boiling.wav", "pan frying.wav")
+    pot = replace(describe("pan on a heater", "pan boiling"), own_word="boiling pot")
+    assert [clip.credit.title for clip in FolderLibrary(tmp_path).find(pot)] == ["pan boiling"]
+
+
 def test_sounds_of_what_the_object_does_come_alone(tmp_path: Path) -> None:
     """In an earlier version the states of a car had one sound, and a clock that ticks rang, since ringing is tonal."""
     clocks, cars = ("alarm clock ringing.wav", "wall clock ticking.wav"), ("car idle.wav", "car drives.wav")
@@ -68,7 +75,7 @@ def test_sounds_of_what_the_object_does_come_alone(tmp_path: Path) -> None:
 
 def test_a_short_sound_of_what_the_object_does_does_not_come_alone(tmp_path: Path) -> None:
     fill(fill(tmp_path, "horn sounding.wav", duration_s=0.5), "horn.wav", "horn of a car.wav")
-    assert titles(tmp_path, "horn", "horn sounding") == ["horn sounding", "horn of a car", "horn"]
+    assert titles(tmp_path, "horn", "horn sounding") == ["horn of a car", "horn", "horn sounding"]
 
 
 def test_library_takes_only_files_of_sound(tmp_path: Path) -> None:
@@ -206,5 +213,15 @@ def test_sounds_that_are_all_too_short_are_said(tmp_path: Path) -> None:
     said = r"sounds of 'jackhammer', but none lasts more than 2\.5 s .*: 'jackhammer', 'old jackhammer'\. Record"
     with pytest.warns(ShortSound, match=said):
         assert len(titles(tmp_path, "jackhammer", "jackhammer hammering")) == 2
+    with pytest.warns(ShortSound, match=said):
+        titles(tmp_path, "jackhammer", "old jackhammer running down")
     fill(tmp_path, "new jackhammer.wav")
     assert len(titles(tmp_path, "jackhammer", "jackhammer hammering")) == 3
+
+
+def test_many_short_sounds_do_not_hide_a_long_one(tmp_path: Path) -> None:
+    """In an earlier version the first five files counted, so that the sixth was called too short as well."""
+    fill(tmp_path, *(f"jackhammer hit {i}.wav" for i in range(9)), duration_s=0.2)
+    fill(tmp_path, "jackhammer loop.wav")
+    found = titles(tmp_path, "jackhammer", "jackhammer hammering")
+    assert (found[0], len(found)) == ("jackhammer loop", 5)
