@@ -36,7 +36,6 @@ from scene2hap.bundle.override import NONE, answers_before
 from scene2hap.bundle.pending_corrections import objects_without_states, renamed_objects
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
-from scene2hap.common.kept_memory import keep_freed_memory
 from scene2hap.common.run_coroutine import run_waiting
 from scene2hap.errors import ConfigError, SceneError
 from scene2hap.haptics import ObjectHaptics
@@ -123,7 +122,6 @@ async def bake_inferred(
     earlier: HapticBundle | None = None,
 ) -> HapticBundle:
     """Make the loops of an inferred scene. Returns its bundle, as `bake` after inference. Raises: AudioError."""
-    keep_freed_memory()
     before_bake, answers = EarlierLoops(), inferred
     if earlier is not None:
         locked = {key: states for key, states in earlier.loops.items() if overrides.get(key, NONE).locked}

@@ -1,4 +1,4 @@
-"""Freed memory that stays with the process once it has converted or baked sounds.
+"""Freed memory that stays with the process once it has converted a sound.
 
 The allocator of Linux (glibc) returns freed memory to the system if it exceeds twice the largest block that was ever
 freed. A conversion takes and frees tens of megabytes in blocks of up to 4, and the system clears each page before it
