@@ -232,7 +232,7 @@ class Explainer:
     def _reasons(self, on: set[str], *, is_paused: bool) -> Iterator[str]:
         """Yield sentences that say why a hand on these objects feels no source."""
         if is_paused:
-            yield "The session is paused; `resume` ends the pause, and `unpause` of the bridge."
+            yield "The session is paused; `resume` ends the pause, or over the bridge `unpause`."
         if self._sources.user.is_muted:
             yield "The user's level is muted; call `set_user` with mute false."
         unknown = sorted(on - self._state.bodies.keys())
