@@ -121,7 +121,7 @@ class PluginGroup:
         kind = settings.pop("kind", None)
         if not isinstance(kind, str):
             raise ConfigError(
-                f"{self.name}: {shown(spec)} names no kind; write a 'kind', and its settings. "
+                f"{self.name}: {shown(spec)} names no kind; write {{'kind': ...}} with its settings. "
                 f"Known: {', '.join(self.kinds())}."
             )
         factory = self.load(kind)

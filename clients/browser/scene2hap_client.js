@@ -414,24 +414,28 @@ export class Scene2HapClient extends EventTarget {
   /** Take up the session after a lost connection; one that the server has forgotten is played anew. */
   async #comeBack() {
     const { session, key } = /** @type {Order} */ (this.#order);
-    const isWatching = this.#played.type === "watch";
+    const played = this.#played;
+    const isWatching = played.type === "watch";
     try {
-      await this.#ask(isWatching ? this.#played : { type: "resume", session, key }, !isWatching);
+      await this.#ask(isWatching ? played : { type: "resume", session, key }, !isWatching);
     } catch (cause) {
       const { kind, message } = /** @type {Scene2HapError} */ (cause);
-      if (isWatching || isLoss(cause)) return;
-      if (kind === "UnknownSession") this.#playAgain().catch(() => {});
+      if (isWatching || isLoss(cause) || this.#played !== played) return; // the last: it was left meanwhile
+      if (kind === "UnknownSession") this.#playAgain(played).catch(() => {});
       else this.#fail(kind, message);
     }
   }
 
-  async #playAgain() {
-    if (this.#played.job !== undefined && this.#baked) {
+  async #playAgain(played) {
+    let again = played;
+    if (played.job !== undefined && this.#baked) {
       // A restarted server counts jobs anew: the old number may be another client's job.
       const { job } = await this.#ask({ ...this.#baked, type: "bake" });
-      this.#played = { ...this.#played, job };
+      if (this.#played !== played) return;
+      again = { ...played, job };
     }
-    await this.#ask(this.#played);
+    this.#played = again;
+    await this.#ask(again);
   }
 
   // Requests
@@ -487,10 +491,8 @@ export class Scene2HapClient extends EventTarget {
    */
   play(request) {
     if (this.#isPlaying) return this.#refuse("play");
-    this.#forget();
-    this.#played = { ...request, type: "play" };
     this.#learnPoses(request.scene);
-    return handled(this.#askUntilHeard(this.#played));
+    return this.#begin({ ...request, type: "play" });
   }
 
   /**
@@ -501,9 +503,14 @@ export class Scene2HapClient extends EventTarget {
    */
   watch({ session }) {
     if (this.#isPlaying) return this.#refuse("watch");
+    return this.#begin({ type: "watch", session });
+  }
+
+  /** Ask for a session, unless `leave` or another one comes before there is a connection. */
+  #begin(message) {
     this.#forget();
-    this.#played = { type: "watch", session };
-    return handled(this.#askUntilHeard(this.#played));
+    this.#played = message;
+    return handled(this.#askUntilHeard(message, () => this.#played === message));
   }
 
   /** The server would refuse it too, but this side would have forgotten its session by then. */
@@ -519,9 +526,12 @@ export class Scene2HapClient extends EventTarget {
     this.#gainsAt_s = -Infinity;
   }
 
-  async #askUntilHeard(message) {
+  async #askUntilHeard(message, isStillWanted = () => true) {
     for (;;) {
       await this.#online.promise;
+      if (!isStillWanted()) {
+        throw new Scene2HapError("Cancelled", `${message.type} was not sent: leave or another request came first.`);
+      }
       try {
         return await this.#ask(message);
       } catch (error) {
@@ -770,7 +780,8 @@ export class Scene2HapClient extends EventTarget {
     const { type, re, job } = message;
     const request = this.#requests.get(re);
     this.#requests.delete(re);
-    if (type === "playing" || type === "watching" || type === "order") this.#takeOrder(message);
+    const isOfSession = type === "order" && this.#order !== null; // of one that was left it is of no use
+    if (type === "playing" || type === "watching" || isOfSession) this.#takeOrder(message);
     if (type === "left") [this.#order, this.#isPlaying] = [null, false]; // `playing` may have come since `leave`
     if (type === "baking" && request) {
       this.#jobs.set(job, request.answer); // `bake` resolves with `baked`

@@ -2424,6 +2424,7 @@ static uint32_t s2h__want_session(s2h_client *c, const char *type, s2h_writer *w
   c->play_job = job;
   c->is_watching = strcmp(type, "watch") == 0;
   c->needs_bake = needs_bake;
+  c->gains_s = S2H__LONG_AGO_S;
   c->play_phase = S2H__WANTED;
   if (c->state == S2H__ONLINE) s2h__send_wanted(c);
   return c->play_phase == S2H__NONE ? 0 : id;
@@ -2959,7 +2960,8 @@ static bool s2h__take_text(s2h_client *c, s2h_event *event, const char *text, si
   } else if (strcmp(type, "state") == 0) {
     event->type = S2H_STATE;
     event->text = s2h__event_text(c, s2h_json_get(message, "is"));
-    if (c->is_watching && strcmp(event->text, "ended") == 0) c->play_phase = S2H__NONE;
+    /* While it is not active, another one is wanted. */
+    if (c->is_watching && c->play_phase == S2H__ACTIVE && strcmp(event->text, "ended") == 0) c->play_phase = S2H__NONE;
   } else if (strcmp(type, "left") == 0 && strcmp(request, "leave") == 0) {
     event->type = S2H_LEFT;
   } else if (request[0] != '\0') {

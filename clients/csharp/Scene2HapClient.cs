@@ -715,7 +715,9 @@ namespace Scene2Hap
         {
             State = one.IsFinal ? ClientState.Failed : ClientState.Connecting;
             opened = null;
-            bool hasLeft = session != null && play == null;
+            List<Pending> lost = new List<Pending>(pending.Values);
+            pending.Clear();
+            bool hasLeft = (session != null && play == null) || lost.Exists(request => request.Type == "leave");
             if (one.IsFinal || hasLeft)
                 session = null;
             // A bake goes on without its connection, but its number must be known to follow it.
@@ -725,8 +727,6 @@ namespace Scene2Hap
             isJobOld = true;
             hasGains = isStarting = false;
             unansweredSince = 0;
-            List<Pending> lost = new List<Pending>(pending.Values);
-            pending.Clear();
             Report(one.Text);
             foreach (Pending request in lost)
                 if (request.Answered != null || !sentAgain.Contains(request.Type))
@@ -895,9 +895,11 @@ namespace Scene2Hap
 
         void HandleWatching(Json message, Pending request)
         {
-            if (State != ClientState.Ready || request == null || request.Type != "watch" || !ReadOrder(message))
+            if (request == null || request.Type != "watch")
                 return;
             isStarting = false;
+            if (State != ClientState.Ready || !ReadOrder(message))
+                return;
             State = ClientState.Watching;
             hasGains = false;
             if (watched == null) // Leave was called meanwhile

@@ -11,6 +11,7 @@ import json
 import sys
 import warnings
 from pathlib import Path
+from threading import Lock
 from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
@@ -30,9 +31,11 @@ def main() -> None:
     checks.speak_json()  # the client reads the errors
     answers = sys.stdout
     sys.stdout = sys.stderr  # so that a plug-in's prints do not mix with the answers
+    writing = Lock()  # warnings come from several threads, and two lines in one would end the bake
 
     def tell(document: dict[str, Any]) -> None:
-        print(json.dumps(document), file=answers, flush=True)
+        with writing:
+            print(json.dumps(document), file=answers, flush=True)
 
     def show(message: Warning | str, category: type[Warning], *rest: Any, **more: Any) -> None:
         if issubclass(category, UserWarning):

@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal, get_args
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
 from scene2hap.common import checks
-from scene2hap.common.json_fields import NUMBER, Flag, Real, Whole
+from scene2hap.common.json_fields import WHOLE, Flag, Real, Whole
 from scene2hap.common.json_texts import parse_json
 from scene2hap.errors import BridgeError
 
@@ -26,7 +26,7 @@ class Request(BaseModel):
     model_config: ClassVar[ConfigDict] = ConfigDict(extra="forbid", frozen=True, hide_input_in_errors=True)
 
     type: str
-    id: Annotated[int, Field(ge=0, lt=2**53), NUMBER] | None = None
+    id: Annotated[int, Field(ge=0, lt=2**53), WHOLE] | None = None
 
 
 class Hello(Request):

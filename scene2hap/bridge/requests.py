@@ -150,7 +150,8 @@ async def _play(request: messages.Play, client: Client, host: Host) -> Document:
     try:
         await hosted.open(client)
     except BaseException:
-        host.give_sink_back()
+        if sink is not None:
+            host.give_sink_back()
         raise
     host.host(hosted, plays_sink=sink is not None)
     client.watch(None)

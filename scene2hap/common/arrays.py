@@ -47,10 +47,15 @@ def floats(name: str, value: object, unit: str, *, error: type[Scene2HapError]) 
 
 def _require_numbers(rows: Sequence[Any]) -> None:
     """Raise a TypeError if nested lists are ragged, or hold None or True, which NumPy takes for NaN and 1."""
-    while (kinds := {*map(type, rows)}) and kinds <= {list, tuple}:
+    for _level in range(_MOST_LEVELS):
+        kinds = {*map(type, rows)}
+        if not kinds or not kinds <= {list, tuple}:
+            break
         if len({*map(len, rows)}) > 1:
             raise TypeError(_RAGGED)
         rows = [*chain.from_iterable(rows)]
+    else:
+        raise TypeError("its lists are nested too deeply")
     if kinds & {list, tuple} and kinds <= {list, tuple, float, int}:  # NumPy joins lists and arrays
         raise TypeError(_RAGGED)
     for kind in kinds - {float, int}:
@@ -59,3 +64,5 @@ def _require_numbers(rows: Sequence[Any]) -> None:
 
 
 _RAGGED = "its rows are not equally long"
+_MOST_LEVELS = 32
+"""Most lists within lists; assumed: far more than any table has. A list that holds itself has endlessly many."""

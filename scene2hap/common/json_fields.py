@@ -16,11 +16,17 @@ def _number(value: object) -> object:
     raise PydanticCustomError("float_type", "it is no number")
 
 
-NUMBER = BeforeValidator(_number)
+def _whole(value: object) -> object:
+    if isinstance(value, AnyReal) and not isinstance(value, bool):
+        return value
+    raise PydanticCustomError("int_type", "it is no number")
+
+
+WHOLE = BeforeValidator(_whole)
 """For types with bounds of their own; pydantic's JSON schema has those bounds that stand before it."""
-Real = Annotated[float, NUMBER]
+Real = Annotated[float, BeforeValidator(_number)]
 """A number."""
-Whole = Annotated[int, NUMBER]
+Whole = Annotated[int, WHOLE]
 """A whole number. Some languages write 7 as 7.0."""
 Flag = Annotated[bool, Strict()]
 """True or false."""

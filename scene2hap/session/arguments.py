@@ -184,7 +184,7 @@ def given_strike(
     if with_object == object_id:
         raise SessionError(
             f"with_object is {checks.represented(with_object)}, the struck object itself; give the object that strikes "
-            "it, and none for a finger."
+            "it, or leave it out for a finger."
         )
     if speed_m_s is not None and impulse_n_s is not None:
         raise SessionError("speed_m_s and impulse_n_s are both given; give one of them.")
@@ -262,7 +262,8 @@ def require_prefab(prefab: object, pose: object) -> None:
         )
     if len(prefab.snapshot.objects) != 1:
         raise SessionError(
-            f"prefab has {len(prefab.snapshot.objects)} objects; it must have one. Bake each object alone."
+            f"prefab has {len(prefab.snapshot.objects)} objects; it must have one. Bake each object alone, in "
+            "Python by `bake_object`."
         )
     if not isinstance(pose, Pose):
         raise SessionError(f"pose is {checks.shown(pose)}; it must be a Pose.")

@@ -65,7 +65,7 @@ class SkipConfig(Settings):
 def _skip(value: object) -> object:
     if not isinstance(value, bool | Mapping | SkipConfig):
         names = ", ".join(SkipConfig.model_fields)
-        raise ConfigError(f"skip is {checks.described(value)}; it must be true or false, or have {names}.")
+        raise ConfigError(f"skip is {checks.described(value)}; it must be true or false, or a mapping of {names}.")
     return SkipConfig(**dict.fromkeys(SkipConfig.model_fields, value)) if isinstance(value, bool) else value
 
 

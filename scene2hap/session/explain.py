@@ -232,14 +232,14 @@ class Explainer:
     def _reasons(self, on: set[str], *, is_paused: bool) -> Iterator[str]:
         """Yield sentences that say why a hand on these objects feels no source."""
         if is_paused:
-            yield "The session is paused; end the pause."
+            yield "The session is paused; `resume` ends the pause, or over the bridge `unpause`."
         if self._sources.user.is_muted:
-            yield "The user's level is muted; unmute it by set_user."
+            yield "The user's level is muted; call `set_user` with mute false."
         unknown = sorted(on - self._state.bodies.keys())
         if unknown:
             yield (
-                f"The material of {', '.join(map(repr, unknown))} is unknown. Correct its name or its material in "
-                "the bundle, and rebake it; or give `add` its haptics."
+                f"The material of {', '.join(map(repr, unknown))} is unknown. Correct its `name` or its "
+                "`material` by `override` of the bundle, then `rebake` the bundle; or give `add` its haptics."
             )
         ids, near = self._sources.ids, self._connected(on)
         if not near:
@@ -288,11 +288,11 @@ class Explainer:
         """Return why a source is silent, and the remedy; None if it is not silent."""
         source = self._sources[source_id]
         if not source.is_on:
-            return "off", "switch it on by set_source"
+            return "off", "call `set_source` with on true"
         if source.level.is_muted:
-            return "muted", "unmute it by set_source"
+            return "muted", "call `set_source` with mute false"
         if source.is_resting:
-            return "in its off-time", "switch it on by set_source"
+            return "in its off-time", "call `set_source` with on true"
         if not source.has_contact:
             return f"without contact with {source.needs[source.state]!r}, switched on", "move it there"
         return None

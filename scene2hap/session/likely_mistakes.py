@@ -104,7 +104,8 @@ class LikelyMistakes:
             parts = ", ".join(f"{part:g}" for part in new.rotation_xyzw)
             warn_of(
                 f"the first poses turn all {len(some)} moved objects over, as quaternions do that begin with w: "
-                f"rotation_xyzw of {x!r} is ({parts}). Put w last; Pose.from_wxyz of Python does."
+                f"rotation_xyzw of {x!r} is ({parts}). Put w last; Python's "
+                "`Pose.from_wxyz` takes position_m and rotation_wxyz, with w first."
             )
 
     def in_contacts(self, contacts: Sequence[Contact]) -> None:
@@ -176,7 +177,7 @@ class LikelyMistakes:
             self._is_silence_named = True
             warn_of(
                 f"of {len(self._state.objects)} objects none vibrates, so that nothing but impacts will be felt; add "
-                "one with loops, or correct `vibrates` of one in the bundle, and rebake it."
+                "one with loops, or give one `vibrates` true by `override` of the bundle, then `rebake` the bundle."
             )
 
     def in_added(self, object_id: str, haptics: ObjectHaptics | None, loops: Mapping[str, HapticLoop]) -> None:
@@ -196,8 +197,8 @@ class LikelyMistakes:
         self._n_silent_named += 1
         last = " Further silent objects are not named." if self._n_silent_named == MOST_NAMED else ""
         warn_of(
-            f"{object_id!r}, {why}, is added without loops: it {what}; give its haptics and loops, as a bundle has "
-            f"them, or bake it alone and add it by `spawn`.{last}"
+            f"{object_id!r}, {why}, is added without loops: it {what}; give its `haptics` and `loops`, as a "
+            f"bundle has them, or bake it alone, in Python by `bake_object`, and add it by `spawn`.{last}"
         )
 
     def _off_m(self, object_id: str, point_m: Point) -> float:
@@ -210,7 +211,7 @@ class LikelyMistakes:
     def _warn_of_touch(self, touch: Touch, off_m: float) -> None:
         warn_of(
             f"hand {touch.hand!r} touches {_far(touch.object_id, touch.point_m, off_m)} "
-            "`touches_off_surface` of the stats counts such touches."
+            "`stats.touches_off_surface` counts such touches."
         )
 
 
@@ -233,7 +234,8 @@ def warn_if_other_actuator(bundle: HapticBundle, actuator: ActuatorProfile) -> N
         return
     warn_of(
         f"the bundle's loops were made for the actuator {made_for.name!r}, and this session plays on "
-        f"{actuator.name!r}: set `actuator` of the session to the one in use, or rebake the bundle for it.",
+        f"{actuator.name!r}: set `actuator` of the session's settings to the one in use, or `rebake` the bundle with "
+        "that `actuator`.",
         OtherActuatorWarning,
     )
 
@@ -245,8 +247,8 @@ def warn_if_not_baked(scene: SceneSnapshot, bundle: HapticBundle) -> None:
         objects = counted(len(scene.objects), "object")
         warn_of(
             f"the bundle lacks {len(new)} of {objects} of the scene, such as {new[0]!r}. What it lacks neither "
-            "vibrates nor carries vibration. Bake the scene again, with the `overrides` of the bundle if a "
-            "person corrected it."
+            "vibrates nor carries vibration. Bake the scene again; `bake` keeps corrections if it gets "
+            "the `overrides` of the bundle."
         )
 
 

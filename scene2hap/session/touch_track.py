@@ -235,7 +235,7 @@ def _from_csv(text: str) -> dict[str, Any]:
         cells = {name: cell.strip() for name, cell in zip(named, row, strict=False) if name and cell.strip()}
         if not cells:
             continue
-        values = {name: cell if name in _NAMES else _value(cell) for name, cell in cells.items()}
+        values = {name: _value(name, cell) for name, cell in cells.items()}
         step: dict[str, Any] = {key: value for key, value in values.items() if key not in _VECTOR_CELLS}
         for name, columns in _VECTORS.items():
             if any(column in values for column in columns):
@@ -246,10 +246,12 @@ def _from_csv(text: str) -> dict[str, Any]:
     return {"duration_s": steps[-1]["time_s"], "steps": steps[:-1]}
 
 
-def _value(cell: str) -> bool | float | str:
-    """Return the flag or the number in a cell. Any other text stays one, which no step takes."""
-    if cell.lower() in _TRUTH:
-        return _TRUTH[cell.lower()]
+def _value(column: str, cell: str) -> bool | float | str:
+    """Return the name, the flag or the number in a cell. Any other text stays one, which no step takes."""
+    if column in _NAMES:
+        return cell
+    if column in _FLAGS:
+        return _TRUTH.get(cell.lower(), cell)
     try:
         return float(with_point(cell))
     except ValueError:
@@ -257,7 +259,8 @@ def _value(cell: str) -> bool | float | str:
 
 
 _NAMES = ("hand", "touch", "move", "source", "state")
-_TRUTH = {"true": True, "false": False}
+_FLAGS = ("on", "lift")
+_TRUTH = {"true": True, "1": True, "false": False, "0": False}
 _VECTORS = {
     "point_m": ("x_m", "y_m", "z_m"),
     "to_m": ("to_x_m", "to_y_m", "to_z_m"),

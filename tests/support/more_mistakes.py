@@ -170,13 +170,13 @@ MORE_TOPICS: dict[str, tuple[Mistake, ...]] = {
         mistake("Contact('mug', 'table', TOP, weight=50)", "weight", "50", "at most 1"),
     ),
     "What comes and goes": (
-        warned("session.add(new_object)", "'vase'", "nothing is known", "bake it alone"),
+        warned("session.add(new_object)", "'vase'", "nothing is known", "bake_object"),
         warned("session.add(new_object, bundle.objects['phone'])", "'vase'", "stays silent", "loops"),
         works("session.add(new_object, bundle.objects['phone'], bundle.loops['phone'])"),
         mistake("session.add(new_object, loops=bundle.loops)", "'phone'", "bundle.loops['phone']"),
         mistake(f"session.add(new_object, loops={LOOP})", "HapticLoop", "mapping"),
         mistake(f"session.add(new_object, loops={{3: {LOOP}}})", "3", "text"),
-        mistake("session.spawn(bundle, 'x', Pose())", "4 objects", "Bake each object alone"),
+        mistake("session.spawn(bundle, 'x', Pose())", "4 objects", "bake_object"),
         mistake("session.spawn('mug.bundle', 'x', Pose())", "mug.bundle", "HapticBundle"),
         mistake("session.spawn(prefab, Pose(), 'x')", "pose", "'x'"),
         mistake("session.spawn(prefab, 3, Pose())", "id", "3"),
@@ -189,7 +189,7 @@ MORE_TOPICS: dict[str, tuple[Mistake, ...]] = {
         warned(
             "silent = bake_object(scene.object('table'))\nHapticSession(silent, sink=MemorySink()).start()",
             "none vibrates",
-            "correct `vibrates`",
+            "`override`",
         ),
     ),
     "Numbers of another unit": (

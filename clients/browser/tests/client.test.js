@@ -497,6 +497,54 @@ test("a session that begins after leave was called ends", async () => {
   );
 });
 
+test("what was left before the server was asked does not begin", async () => {
+  const client = makeClient();
+  client.connect();
+  const early = client.play({ bundle: "cellar" });
+  await client.leave();
+  await online();
+  await assert.rejects(early, { kind: "Cancelled" });
+  const late = client.watch({ session: "c2f1a09b" });
+  const left = client.leave();
+  const next = client.play({ bundle: "attic" });
+  await settled();
+  FakeSocket.last.answer("leave", { type: "left" });
+  FakeSocket.last.answer("play", PLAYING);
+  await Promise.all([assert.rejects(late, { kind: "Cancelled" }), left, next]);
+  assert.deepEqual(
+    FakeSocket.last.messages.map(({ type, bundle }) => bundle ?? type),
+    ["hello", "leave", "attic"],
+  );
+  assert.equal(client.sendFrame(1), 1);
+});
+
+test("an order of a session that was left is not taken", async () => {
+  const client = makeClient();
+  await playing(client);
+  client.leave();
+  FakeSocket.last.say({ ...PLAYING, type: "order" });
+  FakeSocket.last.bytes(gainsOf({ sequence: 1 }));
+  assert.deepEqual([client.order, client.gain("left", "phone")], [null, 0]);
+});
+
+test("who leaves while a restarted server bakes again does not play again", async () => {
+  const client = makeClient();
+  await playing(client);
+  FakeSocket.last.fail();
+  mock.timers.tick(250);
+  await online();
+  FakeSocket.last.answer("resume", { type: "error", error: "UnknownSession", message: "it ended" });
+  await settled();
+  FakeSocket.last.answer("bake", { type: "baking", job: 7 });
+  client.leave();
+  FakeSocket.last.say({ type: "baked", job: 7, objects: [] });
+  await settled();
+  assert.deepEqual(
+    FakeSocket.last.messages.map(({ type }) => type),
+    ["hello", "resume", "bake", "leave"],
+  );
+});
+
 test("close ends the connection for good", async () => {
   const client = makeClient();
   await playing(client);

@@ -21,6 +21,7 @@ public static class CSharpTrials
             case "play-until-felt": return Play(arguments[1], 60, 1);
             case "play-until-outdated": return Play(arguments[1], 60, 2);
             case "watch": return Watch(arguments[1]);
+            case "watch-cut": return WatchUntilCut(arguments[1]);
             case "requests": return Requests(arguments[1]);
             case "levels": return Levels(arguments[1]);
             case "json": return ReadJson();
@@ -96,6 +97,23 @@ public static class CSharpTrials
             bool hasLeft = false;
             player.Left += () => hasLeft = true;
             Until(() => hasLeft, player);
+        }
+        return 0;
+    }
+
+    /// <summary>The connection is lost before the server answers Leave.</summary>
+    static int WatchUntilCut(string url)
+    {
+        using (Client client = Printing(url))
+        {
+            client.Watch("c2f1a09b");
+            client.Connect();
+            Until(() => client.State == ClientState.Watching, client);
+            bool hasLeft = false;
+            client.Left += () => hasLeft = true;
+            client.Leave();
+            Until(() => hasLeft, client);
+            Until(() => client.State == ClientState.Ready, client);
         }
         return 0;
     }

@@ -347,6 +347,31 @@ def test_a_second_session_is_refused_and_the_first_goes_on(driver: Driver) -> No
         driver.until("playing")
 
 
+def test_another_session_is_watched_though_the_first_ends_meanwhile(driver: Driver) -> None:
+    def watching(ws: ServerConnection) -> None:
+        request = next_request(ws, "watch")
+        order = {key: value for key, value in ORDER.items() if key not in ("key", "sequence")}
+        say(ws, "watching", re=request["id"], **{**order, "session": request["session"], "watchdog_s": 60.0})
+
+    def handle(ws: ServerConnection, _: int) -> None:
+        watching(ws)
+        ws.send(gains_of(1))
+        next_request(ws, "stats")
+        say(ws, "state", session="a", **{"is": "ended"})  # before the request to watch another is read
+        watching(ws)
+        until_closed(ws)
+
+    with scripted(handle) as url:
+        driver.do(f"create {url} - 0 0")
+        driver.one("request watch a")
+        driver.until("gains")
+        driver.one("request stats")
+        assert driver.one("request watch b")["request"] > 0
+        assert not driver.one("felt left phone")["is_felt"], "gains of the session before"
+        driver.until("state")
+        assert driver.until("playing")["message"]["session"] == "b"
+
+
 def test_requests_carry_all_of_their_values_exactly(driver: Driver) -> None:
     heard: list[dict[str, Any]] = []
 

@@ -293,6 +293,25 @@ def test_one_client_watches_another(trial: Callable[..., list[str]]) -> None:
     ]
 
 
+def test_who_watched_has_left_if_the_connection_is_lost_before_the_answer(trial: Callable[..., list[str]]) -> None:
+    types: list[str] = []
+
+    def take(connection: ServerConnection, message: str | bytes) -> None:
+        document = json.loads(message)
+        types.append(document["type"])
+        if document["type"] == "watch":
+            connection.send(order("watching", 1, re=document["id"]))
+        elif document["type"] == "leave":
+            connection.close()
+        else:
+            answer_as_desk(connection, document)
+
+    with mock(take) as url:
+        lines = trial("watch-cut", url)
+    assert [line for line in lines if not line.startswith("error")] == ["started", "left"]
+    assert types == ["hello", "watch", "leave", "hello"]
+
+
 def test_missing_server_does_not_block_frames(trial: Callable[..., list[str]]) -> None:
     lines = trial("play", f"ws://127.0.0.1:{free_port()}/", 2)
     # With waits of 0.1, 0.2, 0.4 and 0.8 s between attempts, 4 or 5 attempts fit into 2 s.

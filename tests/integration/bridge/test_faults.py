@@ -21,18 +21,24 @@ from unittest.mock import Mock
 
 import numpy as np
 import pytest
+from websockets.asyncio.client import connect as connect_here
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from bridge_client import Client, Refused
 from scene2hap import HapticSession, Touch
 from scene2hap.bridge import BridgeConfig, BridgeServer
+from scene2hap.bridge.client import Client as BridgeClient
 from scene2hap.bridge.frames import Gains
 from scene2hap.bridge.host import Host
 from scene2hap.bridge.hosted_session import HostedSession
+from scene2hap.bridge.messages import Play
+from scene2hap.bridge.pictures import SentPictures
 from scene2hap.bridge.played_session import PlayedSession
+from scene2hap.bridge.requests import answer
 from scene2hap.cli import main
-from scene2hap.errors import BridgeError
+from scene2hap.common import checks
+from scene2hap.errors import BridgeError, ConfigError
 from serial_bench import eventually
 from systems import needs_links
 
@@ -203,7 +209,7 @@ PYTHON = re.compile(r"\b(None|True|False|nan|inf|dict|tuple|argument|numpy|sys|s
         ({"type": "strike", "object": "vase", "point_m": [0, 0, 0]}, "There are 'table', 'phone', 'mug'"),
         ({"type": "strike", "object": "mug", "point_m": [0, True, 0]}, "point_m.1 of strike.*, got true"),
         ({"type": "strike", "object": "mug", "point_m": {"x": 0}}, "must be a list, got an object"),
-        ({"type": "strike", "object": "mug", "with_object": "mug", "point_m": [0, 0, 0]}, "and none for a finger"),
+        ({"type": "strike", "object": "mug", "with_object": "mug", "point_m": [0, 0, 0]}, "leave it out for a finger"),
         ({"type": "moving", "moving": ["vase"]}, "There are 'table', 'phone', 'mug'"),
         ({"type": "spawn", "object": "x", "position_m": [0, 0, 0], "prefab": "desk.bundle"}, "Bake each object alone"),
         ({"type": "spawn", "object": "x", "position_m": [0, 0, 0], "prefab": "desk"}, "Did you mean 'desk.bundle'"),
@@ -232,7 +238,7 @@ def test_errors_speak_the_words_of_the_protocol(bridge: Bridge, root: Path, mess
         ({"session": {"actuator": {"colour": 1}}}, "no setting 'colour'. There are name, min_frequency_hz"),
         ({"session": {"bands": 3}}, "rising edges .* or a name"),
         ({"session": {"sample_rate_hz": True}}, "neither true nor false, got true"),
-        ({"session": {"skip": 3}}, "must be true or false, or have"),
+        ({"session": {"skip": 3}}, "must be true or false, or a mapping of"),
         ({"scene": ROOM}, "`snapshot` of the bundle"),
         ({"scene": mesh([0, 0, True])}, "vertices_m is not a table of numbers .*: it has true"),
         ({"scene": mesh([0, 0, None])}, "it has null"),
@@ -244,6 +250,33 @@ def test_errors_of_settings_and_scenes_do_so_too(bridge: Bridge, request_: dict[
     with Client(bridge().url) as client, pytest.raises(Refused, match=says) as refused:
         client.ask("play", bundle="desk.bundle", **request_)
     assert not PYTHON.search(str(refused.value))
+
+
+def test_a_program_that_serves_a_bridge_keeps_the_words_of_python() -> None:
+    async def program() -> tuple[str, list[str]]:
+        async with BridgeServer({"port": 0}).listening() as server, connect_here(server.url) as ws:
+            await ws.send(json.dumps({"type": None}))
+            said = str(await ws.recv())
+            loop = asyncio.get_running_loop()
+            here = [checks.shown(None), await loop.run_in_executor(None, checks.shown, None)]
+            return said, [*here, await asyncio.create_task(asyncio.to_thread(checks.shown, None))]
+
+    said, here = asyncio.run(program())
+    assert "is null" in said
+    assert here == ["None"] * 3
+
+
+def test_a_play_without_the_sink_that_fails_does_not_free_it(root: Path) -> None:
+    async def two() -> None:
+        host = Host(BridgeConfig(root=root, sink="memory"), owns_process=False)
+        assert await host.take_sink() == "memory"  # of a session that is made
+        client = BridgeClient(SentPictures(lambda: root))
+        with pytest.raises(ConfigError, match="hands"):
+            await answer(Play(type="play", bundle="desk.bundle", hands=["left", "left"], use_sink=False), client, host)
+        with pytest.raises(BridgeError, match="another session plays on the sink"):
+            await host.take_sink()
+
+    asyncio.run(two())
 
 
 def test_messages_above_the_size_limit_are_refused(bridge: Bridge) -> None:

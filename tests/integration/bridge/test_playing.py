@@ -44,6 +44,7 @@ def test_the_game_of_the_protocol_page() -> None:
         ("write('1,0.5,nan')", "a line of gains.csv is '1,0.5,nan'; it must be a sequence and gains"),
         ("write(' '.join(f'{i},0' for i in range(600, 0, -1)))", "the lines are not in the order of their sequences"),
         ("write(' '.join(f'{i or 1},0' for i in range(601)))", "601 lines are written for 600 frames"),
+        ("write(' '.join(f'{i}' + i % 7 * ',0' for i in range(1, 601)))", "a line has 1 gains; it must have 4"),
     ],
 )
 def test_a_client_that_fails_the_check_learns_why(
@@ -130,6 +131,29 @@ def test_several_watch_and_one_plays(bridge: Bridge) -> None:
         assert first.hear(lambda one: one["type"] == "order")["objects"] == ["table", "phone"]
         player.ask("leave")
         assert first.hear(lambda one: one["type"] == "state")["is"] == "ended"
+
+
+@pytest.mark.parametrize("frames", ["newest", "every"])
+def test_who_watches_a_session_takes_it_over(bridge: Bridge, frames: str) -> None:
+    server = bridge()
+    with Client(server.url) as player, Client(server.url) as watcher, Client(server.url) as other:
+        playing = player.play(bundle="desk.bundle", moving=[], frames=frames)
+        for one in (watcher, other):
+            one.ask("watch", session=playing["session"])
+        with pytest.raises(Refused, match="another key"):
+            watcher.ask("resume", session=playing["session"], key="0" * 16)
+        player.socket.send(player.frame(1, 1.0, poses(), [ON_TABLE]))
+        assert [one.next_gains().time_s for one in (player, watcher, other)] == [1.0] * 3
+        watcher.order = watcher.ask("resume", session=playing["session"], key=playing["key"])
+        watcher.key = player.key
+        assert watcher.order["sequence"] == 1
+        watcher.socket.send(watcher.frame(2, 2.0, poses(), [ON_TABLE]))
+        assert [watcher.next_gains().time_s for _ in range(2)] == [1.0, 2.0]  # the last are repeated
+        assert other.next_gains().time_s == 2.0
+        with pytest.raises(Refused, match="there is no session"):
+            player.ask("pause")
+        watcher.ask("leave")
+        other.hear(lambda one: one["type"] == "state" and one["is"] == "ended")
 
 
 def test_another_session_takes_the_place_of_a_watched_one(bridge: Bridge) -> None:

@@ -55,7 +55,7 @@ def test_every_id_that_is_accepted_is_answered(given: object) -> None:
 @pytest.mark.parametrize("given", ["x", "7", True, 1.5, [], {}])
 def test_an_id_that_is_no_integer_is_refused(given: object) -> None:
     assert request_id({"id": given}) is None
-    with pytest.raises(BridgeError, match="id of leave"):
+    with pytest.raises(BridgeError, match="id of leave: it must be a whole number, got"):
         parse_request({"type": "leave", "id": given})
 
 

@@ -29,6 +29,13 @@ def test_what_is_no_number_is_refused(value: object, reason: str) -> None:
         floats("points", value, "m", error=SceneError)
 
 
+def test_a_list_that_holds_itself_is_refused() -> None:
+    endless: list[object] = []
+    endless.append(endless)
+    with pytest.raises(SceneError, match="its lists are nested too deeply"):
+        floats("points", endless, "m", error=SceneError)
+
+
 @pytest.mark.parametrize(
     "value", [[[1, 2.0], (3, np.float32(4))], [[1, 2], np.array([3, 4])], [np.array([1, 2]), [3, 4]], [[], []]]
 )

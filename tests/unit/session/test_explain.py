@@ -270,20 +270,20 @@ def test_explanation_says_why_nothing_is_felt() -> None:
 
     assert reasons() == "", "it feels the phone"
     s.set_source("phone", on=False)
-    assert "off: 'phone'; switch it on by set_source" in reasons()
+    assert "off: 'phone'; call `set_source` with on true" in reasons()
     s.set_source("phone", on=True, mute=True)
-    assert "muted: 'phone'; unmute it by set_source" in reasons()
+    assert "muted: 'phone'; call `set_source` with mute false" in reasons()
     s.set_source("phone", mute=False)
     s._sources["phone"].is_resting = True  # as a thermostat does
     s._hand_frames.levels_changed()
-    assert "in its off-time: 'phone'; switch it on by set_source" in reasons()
+    assert "in its off-time: 'phone'; call `set_source` with on true" in reasons()
     s.set_source("phone", on=True)
     assert reasons() == "", "who switches it on ends its off-time"
     s.set_user(mute=True)
-    assert "unmute it by set_user" in reasons()
+    assert "call `set_user` with mute false" in reasons()
     s.set_user(mute=False)
     s.pause()
-    assert "end the pause" in reasons()
+    assert "`resume` ends the pause" in reasons()
     s.resume()
     s.remove("shelf")
     assert reasons() == "No source touches it, directly or over other objects."
@@ -352,7 +352,7 @@ def test_a_hand_on_an_unknown_object_learns_to_name_it() -> None:
     s = HapticSession(snapshot, dataclasses.replace(bundle, objects=known), {"sample_rate_hz": RATE})
     s.update(touches=[ON_TABLE])
     (unknown, _) = s.explain("left").reasons
-    assert unknown.startswith("The material of 'table' is unknown. Correct its name or its material in the bundle")
+    assert unknown.startswith("The material of 'table' is unknown. Correct its `name` or its `material` by `override`")
 
 
 def test_no_level_is_minus_zero() -> None:

@@ -37,7 +37,9 @@ def silent() -> HapticBundle:
 
 
 def test_session_without_sources_warns_once(silent: HapticBundle) -> None:
-    with pytest.warns(SceneWarning, match="of 1 objects none vibrates.*correct `vibrates`") as caught:
+    with pytest.warns(
+        SceneWarning, match="of 1 objects none vibrates.*`vibrates` true by `override`.*`rebake`"
+    ) as caught:
         HapticSession(silent, sink=MemorySink()).start()
     assert caught[0].filename == __file__
     session = HapticSession(silent)
@@ -63,7 +65,7 @@ def test_adding_an_object_without_data_warns(bundle: HapticBundle) -> None:
 
 
 def test_adding_a_source_without_loops_warns(bundle: HapticBundle) -> None:
-    with pytest.warns(SceneWarning, match="'vase', of which the haptics say.*stays silent.*loops"):
+    with pytest.warns(SceneWarning, match="'vase', of which the haptics say.*stays silent.*`haptics` and `loops`"):
         HapticSession(bundle).add(VASE, bundle.objects["phone"])
 
 

@@ -65,17 +65,17 @@ def test_a_touched_source_that_is_silent_is_explained_beside_another_that_is_fel
     session = humming_hob()
     assert reasons(session) == ()
     session.set_source("pan", mute=True)
-    assert reasons(session) == ("Touched, but muted: 'pan'; unmute it by set_source.",)
+    assert reasons(session) == ("Touched, but muted: 'pan'; call `set_source` with mute false.",)
     assert [one.source_id for one in session.explain("left").felt] == ["hob"]
     session.set_source("pan", mute=False, on=False)
-    assert reasons(session) == ("Touched, but off: 'pan'; switch it on by set_source.",)
+    assert reasons(session) == ("Touched, but off: 'pan'; call `set_source` with on true.",)
 
 
 def test_sources_too_weak_to_be_felt_do_not_hide_why_the_others_are_silent() -> None:
     session = humming_hob(hum=replace(tone_loop(50), felt=Sensation(10.0, 10.0)))
     session.set_source("pan", on=False)
     session.set_source("hob", gain_db=-30.0)
-    assert reasons(session) == ("Connected, but off: 'pan'; switch it on by set_source.",)
+    assert reasons(session) == ("Connected, but off: 'pan'; call `set_source` with on true.",)
     (hob,) = session.explain("left").felt
     assert hob.is_too_weak
 

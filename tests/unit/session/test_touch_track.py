@@ -10,6 +10,7 @@ import pytest
 from scene2hap import HapticSession, MemorySink, TouchTrack, play_track
 from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.render.safety import FADE_OUT_S
+from scene2hap.session.touch_track import SourceStep
 from scene2hap.session.track_player import PlayedFrame
 from scenes import RATE, table_with_two_phones
 
@@ -48,6 +49,12 @@ def test_json_and_csv_give_the_same_track(tmp_path: Path) -> None:
     (tmp_path / "touches.json").write_text(json.dumps(DOCUMENT))
     (tmp_path / "touches.csv").write_text(CSV)
     assert TouchTrack.load(tmp_path / "touches.json") == TouchTrack.load(tmp_path / "touches.csv")
+
+
+@pytest.mark.parametrize(("written", "on"), [("1", True), ("0", False), ("TRUE", True), ("false", False)])
+def test_flags_of_a_spreadsheet(tmp_path: Path, written: str, on: bool) -> None:
+    (tmp_path / "touches.csv").write_text(f"time_s,source,on\n0.5,fan,{written}\n1,,\n")
+    assert TouchTrack.load(tmp_path / "touches.csv").steps == (SourceStep(time_s=0.5, source="fan", on=on),)
 
 
 def test_csv_of_a_spreadsheet_in_a_country_of_decimal_commas(tmp_path: Path) -> None:
