@@ -17,7 +17,7 @@ from packaging.requirements import Requirement
 ROOT = Path(__file__).parents[2]
 # One that `are_in_use` looks for, and one in a deeper folder that includes another's declarations. All of them take a
 # minute of processor time, and were compiled by the same hook when this environment was made.
-FEW_KERNELS = ("scene2hap/contact/_track", "scene2hap/propagation/bands/_band_shapes")
+FEW_KERNELS = ("scene2hap/contact/_certificate", "scene2hap/propagation/bands/_band_shapes")
 COMPILER = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
 
 # The README's command.
