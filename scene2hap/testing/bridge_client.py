@@ -187,7 +187,10 @@ def _of_sequences(found: list[int], n_frames: int) -> str:
     if lacking:
         return f"the lines lack {len(lacking)} of {n_frames} frames, the first with sequence {lacking[0]}"
     if len(found) > n_frames:
-        return f"{len(found)} lines are written for {n_frames} frames; write those that came twice once"
+        return (
+            f"{len(found)} lines are written for {n_frames} frames; write one line for each, also if its gains "
+            "come twice"
+        )
     return "the lines are not in the order of their sequences"
 
 
