@@ -22,7 +22,7 @@ from scene2hap.scene.grouping.collapsed import warn_of_collapsed, without_collap
 from scene2hap.scene.grouping.empty_names import says_nothing
 from scene2hap.scene.grouping.groups import Grouping, group_objects, unique_ids
 from scene2hap.scene.grouping.object_maker import ObjectMaker
-from scene2hap.scene.hinges import hinge_at, welded_at
+from scene2hap.scene.joints import hinges
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.looks.textures import TextureWarning
 from scene2hap.scene.objects import UpAxis, with_relative_heights
@@ -215,12 +215,9 @@ def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float
     limits.at_most("the number of objects", len(groups), "MAX_OBJECTS")
     maker = ObjectMaker(up_axis, unit_m)
     objects = list(map(maker.make, unique_ids([item.name for item in groups]), groups))
-    rows = {each.key: row for row, each in enumerate(groups) if each.key}
-    for pivot in authored.pivots:
-        if pivot.key in rows and pivot.on in rows:
-            item, other, anchor = objects[rows[pivot.key]], objects[rows[pivot.on]], pivot.anchor
-            held = welded_at(item, other) if anchor is None else hinge_at(item, other, anchor * unit_m, pivot.axis)
-            objects[rows[pivot.key]] = replace(item, hinge=held)
+    by_key = {each.key: item for each, item in zip(groups, objects, strict=True) if each.key}
+    held = hinges(by_key, authored.pivots, unit_m)
+    objects = [replace(item, hinge=held.get(item.id)) for item in objects]
     return SceneSnapshot(name, up_axis, with_relative_heights(objects, up_axis))
 
 

@@ -14,7 +14,7 @@
    object has the words that the names of all its geoms, or their meshes, begin with (`milk_mesh`; `club` of
    `club_handle` and `club_head`). An upright plane of the world is a `floor`. An unnamed body without any of these is
    called by its id, which has the parent's name.
-5. A body that turns on another has a hinge (`mujoco_joints`).
+5. A body that turns on another has a hinge (`scene.joints`).
 """
 
 from __future__ import annotations
