@@ -202,7 +202,7 @@ def _from_mjcf(path: Path, up_axis: UpAxis | None, unit_m: float, group: Groupin
 
 def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float, group: Grouping) -> SceneSnapshot:
     roots, collapsed = without_collapsed(authored.roots)
-    # Transforms of a broken file may overflow when they are multiplied; MeshPool refuses the results.
+    # Transforms of a broken file may overflow when they are multiplied; ObjectMaker refuses the results.
     with np.errstate(all="ignore"):
         groups = group_objects(roots, group, scene_name=name)
     if not groups and collapsed:

@@ -158,6 +158,19 @@ def transform(linear: NDArray[np.float64], position: ArrayLike) -> Matrix:
     return matrix
 
 
+def rigid_part(matrix: Matrix) -> Matrix:
+    """Return the rotation and translation of an affine matrix, without scale, shear and mirroring.
+
+    L = Q P with Q orthogonal and P symmetric (polar decomposition). If Q mirrors, its x axis is flipped, so that an
+    upright object stays upright.
+    """
+    left, _, right = np.linalg.svd(matrix[:3, :3])
+    rotation = left @ right
+    if np.linalg.det(rotation) < 0:
+        rotation = rotation * [-1.0, 1.0, 1.0]
+    return transform(rotation, matrix[:3, 3])
+
+
 def with_own_keys(roots: Sequence[AuthoredNode], file: Hashable) -> tuple[AuthoredNode, ...]:
     """Return the nodes of a file with keys of pieces that no other file has. A piece that nodes share stays shared."""
     seen: dict[int, Piece] = {}

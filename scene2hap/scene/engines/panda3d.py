@@ -24,12 +24,11 @@ from scene2hap.scene.engines.panda3d_geoms import GeomReader
 from scene2hap.scene.grouping.collapsed import warn_of_collapsed, without_collapsed
 from scene2hap.scene.grouping.groups import Group, Grouping, group_objects, unique_ids
 from scene2hap.scene.grouping.object_maker import ObjectMaker
-from scene2hap.scene.grouping.rigid_meshes import rigid_part
 from scene2hap.scene.objects import UpAxis, with_relative_heights
 from scene2hap.scene.plausibility.units import metres_per_unit, warn_if_implausible
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.scene.tree import AuthoredNode, Matrix
+from scene2hap.scene.tree import AuthoredNode, Matrix, rigid_part
 
 _VIEWPOINT = "camera"
 """Name of the node above Panda3D's camera. What is below it, such as a sky or a tool in the hand, has its own name."""
