@@ -30,9 +30,9 @@ from scene2hap.scene.engines.mujoco_objects import (
     objects_of,
     require_model,
 )
-from scene2hap.scene.grouping.empty_names import says_nothing
 from scene2hap.scene.grouping.object_maker import ObjectMaker
 from scene2hap.scene.joints import Joint, Motion, hinges, pivots
+from scene2hap.scene.names import says_nothing
 from scene2hap.scene.objects import with_relative_heights
 from scene2hap.scene.plausibility.units import metres_per_unit, warn_if_implausible
 from scene2hap.scene.pose_table import PoseTable

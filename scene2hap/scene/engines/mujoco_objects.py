@@ -30,11 +30,10 @@ import numpy as np
 
 from scene2hap.common.arrays import Bools, Floats, Indices
 from scene2hap.errors import SceneError
-from scene2hap.scene.copies import name_words
 from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.mujoco_geoms import colours_rgba
-from scene2hap.scene.grouping.empty_names import says_nothing
 from scene2hap.scene.grouping.groups import Group, group_objects, unique_ids
+from scene2hap.scene.names import name_words, says_nothing
 from scene2hap.scene.tree import AuthoredNode, Piece
 
 WORLD = 0
