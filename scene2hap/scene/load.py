@@ -18,8 +18,8 @@ from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 from scene2hap.scene.files import HABITAT_SUFFIX, decoded, is_habitat, read_bytes, scene_stem, written_first
-from scene2hap.scene.grouping.collapsed import warn_of_collapsed, without_collapsed
 from scene2hap.scene.grouping.groups import Grouping, group_objects, unique_ids
+from scene2hap.scene.grouping.not_drawn import warn_of_collapsed, without_collapsed
 from scene2hap.scene.grouping.object_maker import ObjectMaker
 from scene2hap.scene.joints import hinges
 from scene2hap.scene.looks.texture_files import TextureFiles

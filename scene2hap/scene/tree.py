@@ -44,6 +44,11 @@ class Piece:
         """The largest coordinate [file unit]."""
         return float(np.abs(self.vertices).max(initial=0.0))
 
+    @cached_property
+    def extent(self) -> float:
+        """The longest edge of its box [file unit]; 0 without vertices."""
+        return float(np.ptp(self.vertices, axis=0).max()) if len(self.vertices) else 0.0
+
     @classmethod
     def checked(cls, key: Hashable, vertices: ArrayLike, faces: ArrayLike, material: str, place: str) -> Piece:
         """Return a piece without the vertices that no face uses.

@@ -21,8 +21,8 @@ from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.panda3d_geoms import GeomReader
-from scene2hap.scene.grouping.collapsed import warn_of_collapsed, without_collapsed
 from scene2hap.scene.grouping.groups import Group, Grouping, group_objects, unique_ids
+from scene2hap.scene.grouping.not_drawn import warn_of_collapsed, without_collapsed
 from scene2hap.scene.grouping.object_maker import ObjectMaker
 from scene2hap.scene.objects import UpAxis, with_relative_heights
 from scene2hap.scene.plausibility.units import metres_per_unit, warn_if_implausible
