@@ -42,7 +42,7 @@ from scene2hap.bundle.manifest import FORMAT, MANIFEST, VERSION, read_manifest, 
 from scene2hap.bundle.override import Override
 from scene2hap.bundle.sounds import SoundReader, file_stems, write_loops
 from scene2hap.common import checks
-from scene2hap.common.file_stamp import Stamp
+from scene2hap.common.files import Stamp
 from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2HapError, SceneError, unwritable
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.materials import lookup

@@ -21,7 +21,7 @@ from scene2hap.audio.analysis import trim_silence
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import read_clip
 from scene2hap.audio.select import MIN_DURATION_S
-from scene2hap.common.text_files import draft_of, path_in_c, read_small
+from scene2hap.common.files import draft_of, path_in_c, read_small
 from scene2hap.errors import AudioError, ConfigError, reason_of, unwritable
 
 MAX_CLIP_S = 60.0

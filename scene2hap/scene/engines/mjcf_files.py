@@ -15,8 +15,8 @@ from math import prod
 from pathlib import Path
 from typing import NamedTuple
 
+from scene2hap.common.files import is_there
 from scene2hap.common.printable import quoted
-from scene2hap.common.text_files import is_there
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 from scene2hap.scene.files import outside, usable_name

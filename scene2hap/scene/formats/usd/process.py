@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from scene2hap import errors
-from scene2hap.common.interpreter import can_start_python
+from scene2hap.common.worker_processes import can_start_python
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 from scene2hap.scene.tree import AuthoredScene
