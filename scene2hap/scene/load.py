@@ -159,7 +159,7 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
 
         return read_gltf(path, assets_root)
     if suffix in _USD_SUFFIXES:
-        from scene2hap.scene.formats.usd import read_usd
+        from scene2hap.scene.formats.usd.process import read_usd
 
         return read_usd(path, assets_root)
     if suffix == ".urdf":

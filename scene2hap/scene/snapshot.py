@@ -29,7 +29,7 @@ from scene2hap.scene.objects import (
     unknown_object,
     with_relative_heights,
 )
-from scene2hap.scene.plausibility.finding import Finding
+from scene2hap.scene.plausibility import Finding
 from scene2hap.scene.pose import Pose, vertical
 
 
