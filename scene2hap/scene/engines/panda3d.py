@@ -53,7 +53,9 @@ def snapshot(
     """
     if up_axis not in ("y", "z", None):
         raise SceneError(f"up_axis is {up_axis!r}; it must be 'y', 'z' or None.")
-    up_axis = up_axis or _up_axis(engine("panda3d.core"))
+    core = engine("panda3d.core")
+    is_y_up = core.get_default_coordinate_system() in (core.CS_yup_right, core.CS_yup_left)
+    up_axis = up_axis or ("y" if is_y_up else "z")
     metres = metres_per_unit(unit_m)
     graph = _Graph.read(render)
     maker = ObjectMaker(up_axis, metres)
@@ -73,10 +75,6 @@ def snapshot(
     if unit_m is None:
         warn_if_implausible(scene, source="engine")
     return scene
-
-
-def _up_axis(core: Any) -> UpAxis:
-    return "y" if core.get_default_coordinate_system() in (core.CS_yup_right, core.CS_yup_left) else "z"
 
 
 class PoseReader:

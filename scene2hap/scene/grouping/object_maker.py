@@ -20,7 +20,7 @@ from scene2hap.scene.looks.appearance import Appearance, joined
 from scene2hap.scene.objects import VERTICAL, SceneObject, UpAxis
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import TriMesh
-from scene2hap.scene.surface.surfaces import Surfaces
+from scene2hap.scene.surface.surface_cache import SurfaceCache
 from scene2hap.scene.tree import Matrix, Piece, rigid_part
 
 # Matrices that were stored as float32 differ in the seventh digit, so instances may differ by this share of their size.
@@ -41,7 +41,7 @@ class ObjectMaker:
 
     def __init__(self, up_axis: UpAxis, unit_m: float) -> None:
         self._up, self._unit_m = VERTICAL[up_axis], unit_m
-        self._surfaces = Surfaces()  # its budget counts each vertex that the file stores
+        self._surfaces = SurfaceCache()  # its budget counts each vertex that the file stores
         self._copies: dict[tuple[object, ...], _Copies] = {}
         self._by_faces: dict[bytes, _Copies] = {}
         self._looks: dict[tuple[object, ...], Appearance | None] = {}
