@@ -203,7 +203,7 @@ def require_finite(path: Path, channels: Samples, start: int = 0) -> None:
 
 @contextmanager
 def written_whole(path: Path) -> Iterator[Path]:
-    """Yield a draft of a file, as `text_files.draft_of`. Raises: AudioError: the file cannot be written."""
+    """Yield a draft of a file, as `common.files.draft_of`. Raises: AudioError: the file cannot be written."""
     try:
         with draft_of(path) as beside:
             yield beside

@@ -105,7 +105,7 @@ class Store:
 
     @contextmanager
     def _draft(self, name: str) -> Iterator[Path]:
-        """Yield a draft of a file, as `text_files.draft_of`. Raises: ConfigError: the folder cannot be written."""
+        """Yield a draft of a file, as `common.files.draft_of`. Raises: ConfigError: the folder cannot be written."""
         target = self.folder / name
         try:
             target.parent.mkdir(parents=True, exist_ok=True)

@@ -35,7 +35,7 @@ class Photographer:
     @cached_property
     def culler(self) -> Culler:
         """The `Culler` that selects the objects of each picture."""
-        return Culler(self.scene, self.renderer, self.config.near_share, self.config.hidden_share, self.below)
+        return Culler(self.scene, self.renderer, self.config, self.below)
 
     def aim(self, shot: Shot) -> tuple[Camera, Selection]:
         """Return the camera, and its selection of objects."""
