@@ -48,6 +48,9 @@ import errno
 import os
 import sys
 from dataclasses import FrozenInstanceError
+from traceback import walk_tb
+
+_PACKAGE = __name__.partition(".")[0]
 
 
 class Scene2HapError(Exception):
@@ -227,6 +230,20 @@ def reason_of(cause: BaseException) -> str:
     if isinstance(cause, UnicodeDecodeError):
         return f"byte {cause.start} is {cause.object[cause.start]:#04x}, which is not UTF-8; save the text as UTF-8"
     return cause.strerror if isinstance(cause, OSError) and cause.strerror else str(cause)
+
+
+def failure_of(problem: Exception) -> str:
+    """Return the message of one of our errors; for any other error its type, message, and the line that raised it.
+
+    The line is the innermost one outside scene2hap, where a part of somebody else failed.
+    """
+    if isinstance(problem, Scene2HapError):
+        return str(problem)
+    at = ""
+    for frame, line in walk_tb(problem.__traceback__):
+        if frame.f_globals.get("__name__", "").partition(".")[0] != _PACKAGE:
+            at = f" at {frame.f_code.co_filename}:{line}"
+    return f"{problem!r}{at}"
 
 
 _TO_DO = {

@@ -24,7 +24,7 @@ from scene2hap.audio.clip import Samples
 from scene2hap.common import checks
 from scene2hap.common.calls import settings_misfit
 from scene2hap.common.csv_tables import csv_reader, with_point
-from scene2hap.common.text_files import read_small_text
+from scene2hap.common.files import read_small_text
 from scene2hap.errors import ConfigError, reason_of
 from scene2hap.haptics import ActuatorProfile
 

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap.audio.clip import AudioClip, Credit, Samples
 from scene2hap.audio.loop_marks import marked_loop, with_loop
 from scene2hap.common import checks
-from scene2hap.common.text_files import LFS_ADVICE, draft_of, is_lfs_pointer, is_there, path_in_c
+from scene2hap.common.files import LFS_ADVICE, draft_of, is_lfs_pointer, is_there, path_in_c
 from scene2hap.errors import AudioError, reason_of, unwritable
 
 PcmSubtype = Literal["PCM_16", "PCM_24"]
@@ -203,7 +203,7 @@ def require_finite(path: Path, channels: Samples, start: int = 0) -> None:
 
 @contextmanager
 def written_whole(path: Path) -> Iterator[Path]:
-    """Yield a draft of a file, as `text_files.draft_of`. Raises: AudioError: the file cannot be written."""
+    """Yield a draft of a file, as `common.files.draft_of`. Raises: AudioError: the file cannot be written."""
     try:
         with draft_of(path) as beside:
             yield beside

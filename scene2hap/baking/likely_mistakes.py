@@ -14,7 +14,7 @@ from scene2hap.bundle.checking import vain_corrections
 from scene2hap.common.counted import counted, first_of
 from scene2hap.common.warning import warn_of
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics, is_unknown
-from scene2hap.scene.grouping.empty_names import names_a_place
+from scene2hap.scene.names import names_a_place
 from scene2hap.scene.snapshot import SceneSnapshot
 
 

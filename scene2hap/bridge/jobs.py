@@ -17,8 +17,8 @@ from scene2hap.bridge.hosted_session import error_message
 from scene2hap.bridge.pictures import temporary_files
 from scene2hap.bridge.session_warnings import Tell
 from scene2hap.bridge.temporary_folder import TemporaryFolder
-from scene2hap.common.interpreter import can_start_python
-from scene2hap.common.text_files import write_whole
+from scene2hap.common.files import write_whole
+from scene2hap.common.worker_processes import can_start_python
 from scene2hap.errors import BridgeError
 
 MAX_RUNNING = 4

@@ -12,8 +12,8 @@ from typing import Any
 
 from scene2hap.bridge.frames import decode_picture
 from scene2hap.common import checks
+from scene2hap.common.files import write_whole
 from scene2hap.common.json_texts import parse_json
-from scene2hap.common.text_files import write_whole
 from scene2hap.errors import BridgeError, unwritable
 from scene2hap.scene.capture.given_pictures import INDEX, GivenPictures
 

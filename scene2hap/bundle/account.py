@@ -17,8 +17,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from scene2hap.common.files import read_small_text, write_whole
 from scene2hap.common.json_texts import read_json
-from scene2hap.common.text_files import read_small_text, write_whole
 from scene2hap.errors import BundleError, reason_of, unwritable
 
 FORMAT, VERSION = "scene2hap/account", 1

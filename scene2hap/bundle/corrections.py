@@ -13,8 +13,8 @@ from typing import Any
 
 from scene2hap.bundle.override import Override
 from scene2hap.common import checks
+from scene2hap.common.files import read_small_text
 from scene2hap.common.json_texts import read_json
-from scene2hap.common.text_files import read_small_text
 from scene2hap.errors import BundleError, reason_of
 
 FORMAT, VERSION = "scene2hap/overrides", 1

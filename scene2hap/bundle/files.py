@@ -6,8 +6,8 @@ import stat
 from pathlib import Path
 from typing import Any
 
+from scene2hap.common.files import LFS_ADVICE, is_lfs_pointer
 from scene2hap.common.json_texts import parse_json
-from scene2hap.common.text_files import LFS_ADVICE, is_lfs_pointer
 from scene2hap.errors import BundleError, BundleIncomplete, reason_of
 
 MAX_FILE_BYTES = 1 << 28

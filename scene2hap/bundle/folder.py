@@ -40,14 +40,14 @@ from scene2hap.bundle.history import Kind, pop, push, step_beside, steps_beside,
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.manifest import FORMAT, MANIFEST, VERSION, read_manifest, require_folder
 from scene2hap.bundle.override import Override
+from scene2hap.bundle.ply import decode_ply, encode_ply
 from scene2hap.bundle.sounds import SoundReader, file_stems, write_loops
 from scene2hap.common import checks
-from scene2hap.common.file_stamp import Stamp
+from scene2hap.common.files import Stamp
 from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2HapError, SceneError, unwritable
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.materials import lookup
 from scene2hap.scene import json as scene_json
-from scene2hap.scene.ply import decode_ply, encode_ply
 from scene2hap.scene.snapshot import SceneSnapshot
 
 _objects: TypeAdapter[dict[str, ObjectHaptics]] = TypeAdapter(dict[str, ObjectHaptics])

@@ -27,9 +27,8 @@ from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.folder_swap import exchange
 from scene2hap.bundle.foreign_files import carry_over, discard
 from scene2hap.bundle.manifest import MANIFEST, our_files
-from scene2hap.common.file_stamp import Stamp, file_stamp
+from scene2hap.common.files import Stamp, file_stamp, rename
 from scene2hap.common.folder_locks import is_old, lock_folder
-from scene2hap.common.renaming import rename
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import BundleChanged, BundleError, BundleIncomplete, reason_of, unwritable
 

@@ -17,7 +17,7 @@ from itertools import count
 from pathlib import Path
 
 from scene2hap.bundle.manifest import MANIFEST, our_files
-from scene2hap.common.renaming import rename
+from scene2hap.common.files import rename
 
 
 def carry_over(old: Path, new: Path) -> None:

@@ -14,7 +14,7 @@ from typing import Literal
 from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.foreign_files import discard
 from scene2hap.bundle.manifest import MANIFEST
-from scene2hap.common.renaming import rename
+from scene2hap.common.files import rename
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import BundleError, reason_of
 

@@ -26,11 +26,10 @@ from scene2hap.cli.console import Console
 from scene2hap.cli.given_spec import given_spec
 from scene2hap.cli.list import GROUPS
 from scene2hap.common import checks
-from scene2hap.common.failures import failure_of
 from scene2hap.compiled import are_in_use
 from scene2hap.devices import SINKS, loopback_latency
 from scene2hap.devices.protocol import ActuatorSink, Block, SinkEvent, SinkFormat, has_clock
-from scene2hap.errors import ConfigError, DeviceError, MissingExtra
+from scene2hap.errors import ConfigError, DeviceError, MissingExtra, failure_of
 from scene2hap.haptics import ActuatorProfile
 from scene2hap.plugins import InstalledPlugin
 from scene2hap.render.safety import SafetyLayer

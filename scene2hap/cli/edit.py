@@ -56,7 +56,7 @@ from scene2hap.cli.given_spec import given_spec
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import show_report
 from scene2hap.common.counted import counted
-from scene2hap.common.file_stamp import file_stamp
+from scene2hap.common.files import file_stamp
 from scene2hap.common.printable import quoted
 from scene2hap.errors import BundleChanged, BundleError, Scene2HapError
 from scene2hap.llm.chain.report import InferenceReport

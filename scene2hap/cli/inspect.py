@@ -31,8 +31,8 @@ from scene2hap.cli.console import Console
 from scene2hap.cli.shared_options import reject_unused
 from scene2hap.cli.tables import bundle_outcome, scene_outcome, show_bundle, show_scene
 from scene2hap.common.counted import counted
+from scene2hap.common.files import write_whole
 from scene2hap.common.printable import quoted
-from scene2hap.common.text_files import write_whole
 from scene2hap.errors import SceneError, unwritable
 from scene2hap.scene.capture import capture_images, contact_sheet, plan_view, render_all
 from scene2hap.scene.snapshot import SceneSnapshot

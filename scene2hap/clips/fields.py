@@ -9,8 +9,8 @@ from typing import Any
 
 from scene2hap.clips.haptic_clip import MAX_CLIP_S, MAX_POINTS
 from scene2hap.common import checks
+from scene2hap.common.files import read_small
 from scene2hap.common.json_texts import parse_json
-from scene2hap.common.text_files import read_small
 from scene2hap.errors import ClipError
 
 MAX_BYTES = 1 << 27

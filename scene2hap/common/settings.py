@@ -14,8 +14,8 @@ from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, fie
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes
+from scene2hap.common.files import read_small_text
 from scene2hap.common.json_texts import parse_json
-from scene2hap.common.text_files import read_small_text
 from scene2hap.errors import ConfigError, reason_of
 
 

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any, TypeVar
 
 Result = TypeVar("Result")
@@ -55,6 +56,12 @@ def as_finished(tasks: Iterable[Future[Result]]) -> Iterator[Future[Result]]:
     while left:
         done, left = wait(left, timeout=WAIT_S, return_when=FIRST_COMPLETED)
         yield from done
+
+
+def can_start_python() -> bool:
+    """Return True if `sys.executable` is a Python interpreter, not a program with an embedded Python."""
+    is_frozen = getattr(sys, "frozen", False)
+    return not is_frozen and bool(sys.executable) and Path(sys.executable).stem.lower().startswith(("python", "pypy"))
 
 
 def most_workers(n_wanted: int) -> int:

@@ -12,8 +12,8 @@ import soundfile
 from scene2hap.audio.files import LARGEST_WAV_BYTES
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
+from scene2hap.common.files import draft_path, path_in_c, put_in_place
 from scene2hap.common.printable import quoted
-from scene2hap.common.text_files import draft_path, path_in_c, put_in_place
 from scene2hap.common.warning import warn_of
 from scene2hap.devices.exclusive_use import claim, give_back
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats

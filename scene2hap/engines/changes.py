@@ -1,22 +1,47 @@
-"""Comparison of an engine's poses with a session's."""
+"""Comparison of an engine's poses with a session's: only motion beyond numerical noise counts.
+
+Objects at rest tremble in a simulation, and each moved pose makes the contact graph search for contacts again.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from operator import mul
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common.arrays import Floats
-from scene2hap.scene.engines.motion import AT_REST_M, AT_REST_RAD, moved
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.session import HapticSession
 from scene2hap.session.arguments import require_pose
 
+AT_REST_M, AT_REST_RAD = 1e-4, 1e-3
+"""Largest motion and rotation of an object at rest. Assumed: 0.1 mm, and 0.1 mm at 10 cm from the pivot; contacts are
+found to millimetres."""
+
+# |q . p| = cos(angle / 2), since q and -q are the same rotation.
 _COS_AT_REST = math.cos(AT_REST_RAD / 2)
 _NOWHERE = Pose()  # placeholder for objects that only the engine has
+
+
+def moved(now: Mapping[str, Pose], before: Mapping[str, Pose]) -> dict[str, Pose]:
+    """Return the poses in `now` that are new, or differ from `before` by more than an object at rest moves.
+
+    Add them to the next `before`, so that slow motion adds up.
+    """
+    return {
+        object_id: pose
+        for object_id, pose in now.items()
+        if (old := before.get(object_id)) is not pose
+        and (
+            old is None
+            or math.dist(pose.position_m, old.position_m) > AT_REST_M
+            or abs(sum(map(mul, pose.rotation_xyzw, old.rotation_xyzw))) < _COS_AT_REST
+        )
+    }
 
 
 class Changes:
@@ -69,7 +94,6 @@ class Changes:
             self._positions = np.array([pose.position_m for pose in known]).reshape(-1, 3)
             self._rotations = np.array([pose.rotation_xyzw for pose in known]).reshape(-1, 4)
         way = ((table.positions_m - self._positions) ** 2).sum(axis=1)
-        # |q . p| = cos(angle / 2), since q and -q are the same rotation.
         turn = np.abs((table.rotations_xyzw * self._rotations).sum(axis=1))
         rows = np.flatnonzero(self._is_followed & ((way > AT_REST_M**2) | (turn < _COS_AT_REST)))
         self._positions[rows], self._rotations[rows] = table.positions_m[rows], table.rotations_xyzw[rows]

@@ -25,12 +25,12 @@ from scene2hap.clips.synthesis import RATE_HZ, synthesize
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
 from scene2hap.common.counted import counted
-from scene2hap.common.draft_sets import DraftSet
+from scene2hap.common.files import put_in_place, require_place
 from scene2hap.common.json_texts import parse_json
-from scene2hap.common.text_files import put_in_place, require_place
 from scene2hap.common.warning import warn_of
 from scene2hap.devices.memory import MemorySink
 from scene2hap.errors import ConfigError, ExportError, unwritable
+from scene2hap.export.draft_set import DraftSet
 from scene2hap.export.fidelity import fidelity
 from scene2hap.export.manifest import FORMAT, NAME, Manifest, manifest_of
 from scene2hap.export.protocol import EXPORTS, Exported, Exporter, json_bytes

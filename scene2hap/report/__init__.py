@@ -14,8 +14,8 @@ from typing import Any
 from scene2hap.bundle import HapticBundle
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
+from scene2hap.common.files import require_place, write_whole
 from scene2hap.common.printable import quoted
-from scene2hap.common.text_files import require_place, write_whole
 from scene2hap.errors import ConfigError, unwritable
 from scene2hap.report.document import report_document
 from scene2hap.report.felt_map import MODELS

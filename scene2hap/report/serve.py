@@ -9,8 +9,8 @@ from pathlib import Path
 
 from scene2hap.bundle.corrections import parsed_corrections
 from scene2hap.common import checks
+from scene2hap.common.files import write_whole
 from scene2hap.common.json_texts import parse_json
-from scene2hap.common.text_files import write_whole
 from scene2hap.errors import ConfigError, Scene2HapError
 
 MAX_BYTES = 1 << 20

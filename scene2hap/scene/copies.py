@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Hashable, Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene.names import name_words
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.shapes import TriMesh
 
-_HASH = re.compile(r"(?<![^\W_])(?=[0-9a-f]*\d)(?=[0-9a-f]*[a-f])[0-9a-f]{6,}(?![^\W_])", re.IGNORECASE)
-"""Serial numbers in base 16 at the end of names in kits ("Mug_3a2f91bc")."""
-_SIDES = frozenset({"left", "right"})
-_WORD = re.compile(r"[A-Z]+(?=[A-Z][a-z])|[A-Z]?[a-z]+|[A-Z]+|[^\W\d_a-zA-Z]+")
-_LONGEST_NAME = 1000
 _PER_MM = 1000.0
 
 
@@ -35,17 +30,6 @@ def copy_key(item: SceneObject) -> Hashable:
 def as_copy(item: SceneObject) -> SceneObject:
     """Return an object of unknown looks as a copy of all objects of equal mesh."""
     return replace(item, instance_key=item.geometry.mesh.digest)
-
-
-def name_words(name: str) -> tuple[str, ...]:
-    """Return the words of an authored name in lower case: ("wooden", "table") of "woodenTable.012".
-
-    Running numbers are left out, as are "left" and "right", which also number objects. Text after the first 1,000
-    characters is not split.
-    """
-    found = (word.lower() for word in _WORD.findall(_HASH.sub(" ", name[:_LONGEST_NAME])))
-    words = tuple(word for word in found if word not in _SIDES)
-    return words + ((name[_LONGEST_NAME:],) if len(name) > _LONGEST_NAME else ())
 
 
 def material_names(item: SceneObject) -> tuple[str, ...]:

@@ -10,8 +10,8 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 from scene2hap.common import checks
+from scene2hap.common.files import LFS_ADVICE, is_lfs_pointer, is_there
 from scene2hap.common.printable import quoted
-from scene2hap.common.text_files import LFS_ADVICE, is_lfs_pointer, is_there
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 

@@ -211,9 +211,9 @@ def _require_plausible_thickness(item: SceneObject) -> None:
 def _completed(scene: SceneData, rows: Sequence[dict[str, Any]]) -> SceneData:
     """Return the scene with the surfaces, heights and keys of copies that its rows lack."""
     # Imported only here, since files that this library wrote contain all measurements.
-    from scene2hap.scene.surface.surfaces import Surfaces
+    from scene2hap.scene.surface.surface_cache import SurfaceCache
 
-    surfaces = Surfaces()
+    surfaces = SurfaceCache()
     stored = {item.geometry.mesh.digest: len(item.geometry.mesh.vertices_m) for item in scene.objects}
     surfaces.work.stored = sum(stored.values())
     objects = []

@@ -83,8 +83,8 @@ class Budget:
         total = self.spent + amount
         allowed = self.free + int(self.per_stored * self.stored)
         if total > allowed:
+            where = f" where {self.stored:,} {self.unit} are stored" if self.per_stored else ""
             raise SceneError(
-                f"{place} brings {self.what} to {total:,}; at most {allowed:,} are read "
-                f"where {self.stored:,} {self.unit} are stored. {self.advice}"
+                f"{place} brings {self.what} to {total:,}; at most {allowed:,} are read{where}. {self.advice}"
             )
         self.spent = total

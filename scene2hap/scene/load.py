@@ -18,13 +18,13 @@ from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 from scene2hap.scene.files import HABITAT_SUFFIX, decoded, is_habitat, read_bytes, scene_stem, written_first
-from scene2hap.scene.grouping.collapsed import warn_of_collapsed, without_collapsed
-from scene2hap.scene.grouping.empty_names import says_nothing
 from scene2hap.scene.grouping.groups import Grouping, group_objects, unique_ids
+from scene2hap.scene.grouping.not_drawn import warn_of_collapsed, without_collapsed
 from scene2hap.scene.grouping.object_maker import ObjectMaker
-from scene2hap.scene.hinges import hinge_at, welded_at
+from scene2hap.scene.joints import hinges
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.looks.textures import TextureWarning
+from scene2hap.scene.names import says_nothing
 from scene2hap.scene.objects import UpAxis, with_relative_heights
 from scene2hap.scene.plausibility.units import UnitWarning, warn_if_implausible
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -159,7 +159,7 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
 
         return read_gltf(path, assets_root)
     if suffix in _USD_SUFFIXES:
-        from scene2hap.scene.formats.usd import read_usd
+        from scene2hap.scene.formats.usd.process import read_usd
 
         return read_usd(path, assets_root)
     if suffix == ".urdf":
@@ -202,7 +202,7 @@ def _from_mjcf(path: Path, up_axis: UpAxis | None, unit_m: float, group: Groupin
 
 def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float, group: Grouping) -> SceneSnapshot:
     roots, collapsed = without_collapsed(authored.roots)
-    # Transforms of a broken file may overflow when they are multiplied; MeshPool refuses the results.
+    # Transforms of a broken file may overflow when they are multiplied; ObjectMaker refuses the results.
     with np.errstate(all="ignore"):
         groups = group_objects(roots, group, scene_name=name)
     if not groups and collapsed:
@@ -215,12 +215,9 @@ def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float
     limits.at_most("the number of objects", len(groups), "MAX_OBJECTS")
     maker = ObjectMaker(up_axis, unit_m)
     objects = list(map(maker.make, unique_ids([item.name for item in groups]), groups))
-    rows = {each.key: row for row, each in enumerate(groups) if each.key}
-    for pivot in authored.pivots:
-        if pivot.key in rows and pivot.on in rows:
-            item, other, anchor = objects[rows[pivot.key]], objects[rows[pivot.on]], pivot.anchor
-            held = welded_at(item, other) if anchor is None else hinge_at(item, other, anchor * unit_m, pivot.axis)
-            objects[rows[pivot.key]] = replace(item, hinge=held)
+    by_key = {each.key: item for each, item in zip(groups, objects, strict=True) if each.key}
+    held = hinges(by_key, authored.pivots, unit_m)
+    objects = [replace(item, hinge=held.get(item.id)) for item in objects]
     return SceneSnapshot(name, up_axis, with_relative_heights(objects, up_axis))
 
 

@@ -29,7 +29,7 @@ from scene2hap.scene.objects import (
     unknown_object,
     with_relative_heights,
 )
-from scene2hap.scene.plausibility.finding import Finding
+from scene2hap.scene.plausibility import Finding
 from scene2hap.scene.pose import Pose, vertical
 
 
@@ -172,7 +172,7 @@ class SceneSnapshot(SceneData):
             return item.id, item.name, size, number(item.relative_height_m), number(item.mass_kg)
 
         count = len(self.objects)
-        title = f"Scene {self.name}: {count} object{'s' * (count != 1)}, {self.up_axis} up"
+        title = f"Scene {self.name}: {counted(count, 'object')}, {self.up_axis} up"
         columns = ("object", "name", "dominant surface [m]", "height above the lowest point [m]", "mass [kg]")
         return html_table(title, columns, map(row, self.objects), count)
 

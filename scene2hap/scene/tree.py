@@ -44,6 +44,11 @@ class Piece:
         """The largest coordinate [file unit]."""
         return float(np.abs(self.vertices).max(initial=0.0))
 
+    @cached_property
+    def extent(self) -> float:
+        """The longest edge of its box [file unit]; 0 without vertices."""
+        return float(np.ptp(self.vertices, axis=0).max()) if len(self.vertices) else 0.0
+
     @classmethod
     def checked(cls, key: Hashable, vertices: ArrayLike, faces: ArrayLike, material: str, place: str) -> Piece:
         """Return a piece without the vertices that no face uses.
@@ -156,6 +161,19 @@ def transform(linear: NDArray[np.float64], position: ArrayLike) -> Matrix:
     matrix: Matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = linear, position
     return matrix
+
+
+def rigid_part(matrix: Matrix) -> Matrix:
+    """Return the rotation and translation of an affine matrix, without scale, shear and mirroring.
+
+    L = Q P with Q orthogonal and P symmetric (polar decomposition). If Q mirrors, its x axis is flipped, so that an
+    upright object stays upright.
+    """
+    left, _, right = np.linalg.svd(matrix[:3, :3])
+    rotation = left @ right
+    if np.linalg.det(rotation) < 0:
+        rotation = rotation * [-1.0, 1.0, 1.0]
+    return transform(rotation, matrix[:3, 3])
 
 
 def with_own_keys(roots: Sequence[AuthoredNode], file: Hashable) -> tuple[AuthoredNode, ...]:

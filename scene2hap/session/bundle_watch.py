@@ -13,7 +13,7 @@ from typing import Self
 from scene2hap.bundle import HapticBundle
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
-from scene2hap.common.file_stamp import Stamp, file_stamp
+from scene2hap.common.files import Stamp, file_stamp
 from scene2hap.common.printable import quoted
 from scene2hap.errors import BundleError, Scene2HapError
 from scene2hap.session import HapticSession

@@ -17,9 +17,9 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes
 from scene2hap.common.counted import counted
 from scene2hap.common.csv_tables import csv_reader, with_point
+from scene2hap.common.files import read_small_text
 from scene2hap.common.json_fields import Flag, Real
 from scene2hap.common.json_texts import parse_json
-from scene2hap.common.text_files import read_small_text
 from scene2hap.errors import SessionError, reason_of
 from scene2hap.scene.limits import MAX_COORDINATE_M
 

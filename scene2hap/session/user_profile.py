@@ -19,9 +19,9 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, field_validator
 
 from scene2hap.common import checks
+from scene2hap.common.files import write_whole
 from scene2hap.common.printable import quoted
 from scene2hap.common.settings import Settings
-from scene2hap.common.text_files import write_whole
 from scene2hap.errors import ConfigError, unwritable
 from scene2hap.haptics import Bands
 from scene2hap.session.hand_gains import HandGains

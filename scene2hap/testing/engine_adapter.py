@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 from scene2hap.engines.adapter import EngineAdapter
-from scene2hap.scene.engines.motion import moved
+from scene2hap.engines.changes import moved
 from scene2hap.scene.geometry import bounds_of, distances
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.plausibility.contact_normals import are_reversed

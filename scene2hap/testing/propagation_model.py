@@ -10,8 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.common.failures import failure_of
-from scene2hap.errors import Scene2HapError
+from scene2hap.errors import Scene2HapError, failure_of
 from scene2hap.haptics import Bands
 from scene2hap.materials import lookup
 from scene2hap.plugins import lacking

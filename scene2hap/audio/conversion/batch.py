@@ -18,8 +18,8 @@ from scene2hap.audio.files import READABLE, SUFFIXES
 from scene2hap.audio.haptic_loop import LevelWarning
 from scene2hap.audio.tactile import DEFAULT_CONVERTER
 from scene2hap.common.counted import first_of
+from scene2hap.common.files import drafts_of
 from scene2hap.common.printable import quoted
-from scene2hap.common.text_files import drafts_of
 from scene2hap.common.worker_processes import as_finished, most_workers, worker_processes
 from scene2hap.errors import AudioError, Scene2HapError, unwritable
 

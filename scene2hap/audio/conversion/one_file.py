@@ -19,6 +19,7 @@ import numpy as np
 from scene2hap.audio.actuators import actuator_profile
 from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.clip import Samples
+from scene2hap.audio.conversion.kept_memory import keep_freed_memory
 from scene2hap.audio.conversion.levelling import levelled
 from scene2hap.audio.conversion.meter import Block, Meter
 from scene2hap.audio.conversion.reading import SoundReader
@@ -40,7 +41,6 @@ from scene2hap.audio.protocol import (
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.common import checks
 from scene2hap.common.blas_threads import one_blas_thread
-from scene2hap.common.kept_memory import keep_freed_memory
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import AudioError, ConfigError
 

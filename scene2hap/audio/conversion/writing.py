@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from scene2hap.audio.conversion.meter import Block, Meter
 from scene2hap.audio.files import LARGEST_WAV_BYTES
-from scene2hap.common.text_files import path_in_c
+from scene2hap.common.files import path_in_c
 from scene2hap.errors import AudioError
 
 FORMATS = {

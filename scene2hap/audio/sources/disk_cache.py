@@ -21,7 +21,7 @@ from scene2hap.audio.analysis import trim_silence
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import read_clip
 from scene2hap.audio.select import MIN_DURATION_S
-from scene2hap.common.text_files import draft_of, path_in_c, read_small
+from scene2hap.common.files import draft_of, path_in_c, read_small
 from scene2hap.errors import AudioError, ConfigError, reason_of, unwritable
 
 MAX_CLIP_S = 60.0
@@ -105,7 +105,7 @@ class Store:
 
     @contextmanager
     def _draft(self, name: str) -> Iterator[Path]:
-        """Yield a draft of a file, as `text_files.draft_of`. Raises: ConfigError: the folder cannot be written."""
+        """Yield a draft of a file, as `common.files.draft_of`. Raises: ConfigError: the folder cannot be written."""
         target = self.folder / name
         try:
             target.parent.mkdir(parents=True, exist_ok=True)

@@ -16,7 +16,7 @@ from scene2hap.audio.sources.disk_cache import is_long_enough
 from scene2hap.audio.sources.word_stems import joined_stems, noun_phrase, says_nothing, stems
 from scene2hap.common import checks
 from scene2hap.common.csv_tables import csv_reader
-from scene2hap.common.text_files import read_small_text
+from scene2hap.common.files import read_small_text
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import AudioError, ConfigError, reason_of
 from scene2hap.haptics import VibrationDescription

@@ -15,7 +15,7 @@ from scene2hap import __version__
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import converter_settings, described
 from scene2hap.bundle.manifest import MANIFEST, our_files
-from scene2hap.common.text_files import read_small_text, write_whole
+from scene2hap.common.files import read_small_text, write_whole
 from scene2hap.errors import ConfigError, SceneError, unwritable
 from scene2hap.llm.chain.config import InferenceConfig
 from scene2hap.llm.wrappers import identity

@@ -19,7 +19,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction, not_pickled
-from scene2hap.common.text_files import read_small
+from scene2hap.common.files import read_small
 from scene2hap.errors import BadAnswer, ConfigError, ReplayMiss, reason_of, unwritable
 from scene2hap.llm.backends.chat import UnusableAnswer
 from scene2hap.llm.protocol import LLMReply, LLMRequest

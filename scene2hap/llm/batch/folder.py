@@ -22,7 +22,7 @@ from typing import Annotated, Any, BinaryIO, ClassVar, Literal
 from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
 
 from scene2hap.common import checks
-from scene2hap.common.text_files import opened_regular, read_small, write_whole
+from scene2hap.common.files import opened_regular, read_small, write_whole
 from scene2hap.errors import ConfigError, reason_of, unwritable
 from scene2hap.llm.backends.http_client import MAX_REPLY_BYTES
 from scene2hap.llm.batch.service import COMPLETIONS, MOST_BYTES, MOST_REQUESTS

@@ -7,8 +7,9 @@ from typing import Any
 
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.llm.prompts.quoting import clean
-from scene2hap.scene.copies import copy_key, name_words
+from scene2hap.scene.copies import copy_key
 from scene2hap.scene.hinges import KinematicChain
+from scene2hap.scene.names import name_words
 from scene2hap.scene.objects import VERTICAL, Contact
 from scene2hap.scene.snapshot import SceneSnapshot
 

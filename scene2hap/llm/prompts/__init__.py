@@ -21,7 +21,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from scene2hap.common.text_files import read_small_text
+from scene2hap.common.files import read_small_text
 from scene2hap.errors import ConfigError, reason_of
 from scene2hap.llm.prompts.quoting import IS_DATA, as_data
 from scene2hap.llm.protocol import COMPONENTS, Component

@@ -19,7 +19,7 @@ from filelock import AsyncFileLock, Timeout
 from pydantic import BaseModel, ConfigDict
 
 from scene2hap.common.calls import clear_construction
-from scene2hap.common.text_files import read_small, write_whole
+from scene2hap.common.files import read_small, write_whole
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import ConfigError, reason_of, unwritable
 from scene2hap.llm.answers.finish_reasons import is_whole

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common.arrays import Complex, Floats
-from scene2hap.common.byte_bounded_lru import ByteBoundedLru
+from scene2hap.common.caches import ByteBoundedLru
 from scene2hap.propagation.bands.octaves import OctaveSums
 from scene2hap.propagation.bodies.legged_body import LeggedBody
 from scene2hap.propagation.bodies.rigid import RigidMotion

@@ -14,8 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.common.byte_bounded_lru import ByteBoundedLru
-from scene2hap.common.cached_while_used import cached_while_used
+from scene2hap.common.caches import ByteBoundedLru, cached_while_used
 from scene2hap.propagation.bodies.many_joints import among as among_many, has_many
 from scene2hap.propagation.elastic_body import AnyFloat, real_times
 from scene2hap.propagation.lattice.lattice import Lattice

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common.arrays import Complex, Floats
-from scene2hap.common.byte_bounded_lru import ByteBoundedLru
+from scene2hap.common.caches import ByteBoundedLru
 from scene2hap.propagation.elastic_body import AnyFloat, ElasticBody, HasResponseBasis, ResponseBasis
 
 

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common.arrays import Complex, Floats
-from scene2hap.common.byte_bounded_lru import ByteBoundedLru
-from scene2hap.common.cached_while_used import cached_while_used
+from scene2hap.common.caches import ByteBoundedLru, cached_while_used
 from scene2hap.propagation.bands.octaves import OctaveSums
 from scene2hap.propagation.bodies.infinite_body import InfiniteBody
 from scene2hap.propagation.bodies.many_joints import among, has_many, rows_at_once

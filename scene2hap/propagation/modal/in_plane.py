@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common.arrays import Floats
-from scene2hap.common.cached_while_used import cached_while_used
+from scene2hap.common.caches import cached_while_used
 from scene2hap.propagation.modal.ritz import axis_basis, products
 from scene2hap.propagation.plate import Plate
 

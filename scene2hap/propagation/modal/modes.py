@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common import checks
-from scene2hap.common.cached_while_used import cached_while_used
+from scene2hap.common.caches import cached_while_used
 from scene2hap.common.calls import clear_attributes
 from scene2hap.common.counted import counted
 from scene2hap.errors import ModelDomainError

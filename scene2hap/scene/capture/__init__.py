@@ -17,6 +17,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any, cast
 
+import numpy as np
+
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call
 from scene2hap.errors import ConfigError
@@ -24,14 +26,14 @@ from scene2hap.plugins import PluginGroup
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.capture.batch import render_all
 from scene2hap.scene.capture.config import CaptureConfig
-from scene2hap.scene.capture.isolated_objects import SUBJECT, by_itself
 from scene2hap.scene.capture.lazy_pictures import CaptureStats, LazyPictures
 from scene2hap.scene.capture.picture_sheets import contact_sheet, plan_view
 from scene2hap.scene.capture.protocol import Renderer, RendererFactory, Selection
 from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.views import Camera
 from scene2hap.scene.images import ImageSet, ObjectImages
-from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.objects import VERTICAL, SceneObject, UpAxis
+from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 
 __all__ = [
@@ -58,6 +60,12 @@ RENDERERS = PluginGroup(
     extras={"embree": "pictures", "panda3d": "panda3d"},
 )
 """Registered renderers: classes or functions that are called with a `RenderScene` and a flag for smooth edges."""
+
+_SUBJECT = "object"
+"""The id of the object in a scene of its own."""
+
+_DIGITS = 6
+"""Decimals of rotations. Rotations of one mesh in two scenes may differ in the last digits, so they are rounded."""
 
 
 @clear_call
@@ -104,8 +112,8 @@ def capture_images(
             return ObjectImages(
                 ImageSet(pictures, shots("isolated", item.id)), ImageSet(pictures, shots("context", item.id))
             )
-        own = LazyPictures(by_itself(item, scene.up_axis), settings, factory, name)
-        return ObjectImages(ImageSet(own, settings.object_shots("isolated", SUBJECT)), ImageSet(own, ()))
+        own = LazyPictures(_by_itself(item, scene.up_axis), settings, factory, name)
+        return ObjectImages(ImageSet(own, settings.object_shots("isolated", _SUBJECT)), ImageSet(own, ()))
 
     objects = tuple(replace(item, images=images(item)) if item.id in wanted else item for item in scene.objects)
     return replace(scene, objects=objects, images=ImageSet(pictures, settings.scene_shots()))
@@ -122,3 +130,26 @@ def _name_of(factory: RendererFactory) -> str:
     if not callable(factory):
         raise ConfigError(f"renderer is {factory!r}; it must be a kind ({', '.join(RENDERERS.kinds())}) or a factory.")
     return f"{getattr(factory, '__module__', '')}.{getattr(factory, '__qualname__', repr(factory))}"
+
+
+def _by_itself(item: SceneObject, up_axis: UpAxis) -> SceneSnapshot:
+    """Return a scene of one object, upright at the origin, so that equal objects of all scenes give equal pictures.
+
+    Only its rotation about the vertical is undone.
+    """
+    # The grey of an object without looks depends on these two fields.
+    unnamed = replace(item, id=_SUBJECT, instance_key=item.instance_key if item.appearance else "")
+    return SceneSnapshot("object", up_axis, (replace(unnamed, pose=_upright(item.pose, up_axis), images=None),))
+
+
+def _upright(pose: Pose, up_axis: UpAxis) -> Pose:
+    """Return the smallest rotation that leaves the same side of the object up."""
+    vertical = VERTICAL[up_axis]
+    up = np.eye(3)[vertical]
+    side = pose.rotation.T @ up
+    # Quaternion from `side` to `up`, not normalised. For opposite vectors, any perpendicular axis is right.
+    quaternion = np.array([*np.cross(side, up), 1.0 + side @ up])
+    if quaternion[3] < 10.0**-_DIGITS:
+        quaternion = np.array([1.0, 0.0, 0.0, 0.0])
+    x, y, z, w = (np.round(quaternion / np.linalg.norm(quaternion), _DIGITS) + 0.0).tolist()
+    return Pose((0.0, 0.0, 0.0), (x, y, z, w))

@@ -6,8 +6,8 @@ from collections import OrderedDict
 from pathlib import Path
 from threading import Lock
 
+from scene2hap.common.files import read_small, write_whole
 from scene2hap.common.printable import quoted
-from scene2hap.common.text_files import read_small, write_whole
 from scene2hap.errors import ConfigError, unwritable
 from scene2hap.scene.capture.png import PNG_END
 

@@ -28,6 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common.arrays import Floats
+from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.protocol import Ids, Renderer, Selection
 from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.surroundings import containers, near, shells
@@ -47,15 +48,11 @@ _MAX_LAYERS = 64
 
 @dataclass(frozen=True)
 class Culler:
-    """Selection of the objects of each picture of a `RenderScene`.
-
-    `near_share` and `hidden_share` as in `CaptureConfig`; `below` : the scene's `supports`.
-    """
+    """Selection of the objects of each picture of a `RenderScene`; `below` : the scene's `supports`."""
 
     scene: RenderScene
     renderer: Renderer
-    near_share: float
-    hidden_share: float
+    config: CaptureConfig
     below: tuple[int | None, ...]
 
     @cached_property
@@ -68,13 +65,13 @@ class Culler:
         aim = _Aim(self, target, close.resized(_GRID_PX))
         opened = self._hiding_shells(self.shells - {target}, wide, aim.focus_m)
         blockers = aim.blockers(opened)
-        beside = near(self.scene, target, self.near_share) | {self.below[target]}
+        beside = near(self.scene, target, self.config.near_share) | {self.below[target]}
         holders = containers(self.scene, target)
         kept, hidden = self.scene.everyone - blockers, np.zeros_like(aim.is_target)
         candidates = blockers & (self.shells | beside)
         for number in sorted(candidates, key=lambda k: (k != self.below[target], aim.hidden_by(k, False).sum(), k)):
             ways = [True] if number in self.shells else [False, True] if number in holders else [False]
-            spared = self.hidden_share * aim.is_target.sum()
+            spared = self.config.hidden_share * aim.is_target.sum()
             limit = spared if number in beside else hidden.sum() + _REMAINDER * aim.is_target.sum()
             for is_opened in ways:
                 together = hidden | aim.hidden_by(number, is_opened)

@@ -21,9 +21,9 @@ import numpy as np
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
+from scene2hap.common.files import read_small, read_small_text
 from scene2hap.common.json_texts import parse_json
 from scene2hap.common.printable import quoted
-from scene2hap.common.text_files import read_small, read_small_text
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.capture.cache import MEMORY

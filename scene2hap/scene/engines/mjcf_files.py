@@ -15,8 +15,8 @@ from math import prod
 from pathlib import Path
 from typing import NamedTuple
 
+from scene2hap.common.files import is_there
 from scene2hap.common.printable import quoted
-from scene2hap.common.text_files import is_there
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 from scene2hap.scene.files import outside, usable_name
@@ -93,27 +93,9 @@ class _Totals:
             MESH_BYTES_PER_STORED,
             advice="Name each file in one <mesh>, and use that mesh in all geoms.",
         )
-        self.n_copied = self.n_bodies = self.n_models = 0
-
-    def add_copies(self, n: int, place: str) -> None:
-        """Count copies. Raises: SceneError: all copies together have too many elements."""
-        self.n_copied += n
-        if self.n_copied > MAX_COPIED_ELEMENTS:
-            raise SceneError(
-                f"{place} is copied {n:,} times, and all copies have {self.n_copied:,} elements; up to "
-                f"{MAX_COPIED_ELEMENTS:,} are read. Copy less."
-            )
-
-    def add_bodies(self, n: int) -> None:
-        """Count bodies. Raises: SceneError: the number of bodies exceeds the bound on objects."""
-        self.n_bodies += n
-        limits.at_most("the number of bodies", self.n_bodies, "MAX_OBJECTS")
-
-    def add_model(self, place: str) -> None:
-        """Count a model. Raises: SceneError: there are too many models within models."""
-        self.n_models += 1
-        if self.n_models > MAX_MODELS:
-            raise SceneError(f"{place} is one of more than {MAX_MODELS} models within models. Name fewer.")
+        self.copied = limits.Budget("the elements of all copies", MAX_COPIED_ELEMENTS, advice="Copy less.")
+        self.n_bodies = 0
+        self.models = limits.Budget("the models within models", MAX_MODELS, advice="Name fewer.")
 
 
 @dataclass
@@ -143,7 +125,7 @@ class _Model:
             size = found.stat().st_size
             limits.at_most(f"the size of {found.name!r} in bytes", size, "MAX_FILE_BYTES")
             if wanted.kind == "model":
-                self.totals.add_model(wanted.place)
+                self.totals.models.spend(1, wanted.place)
                 _Model(found, self.root, (*self.around, self.path), totals=self.totals).check()
             elif wanted.kind in _GRIDS:
                 self.totals.cells.stored += size
@@ -250,9 +232,10 @@ class _Reader:
                 cells = max(cells, 6 * _product(attributes.get("width", "")) ** 2)
             self.model.totals.cells.spend(cells, place)
         if tag in _BODIES:
-            self.model.totals.add_bodies(around)
+            self.model.totals.n_bodies += around
+            limits.at_most("the number of bodies", self.model.totals.n_bodies, "MAX_OBJECTS")
         if around > 1:
-            self.model.totals.add_copies(around, place)
+            self.model.totals.copied.spend(around, place)
         return around
 
     def _compiler(self, attributes: Mapping[str, str]) -> None:

@@ -1,8 +1,8 @@
 """MuJoCo models as snapshots: a running `MjModel` with its `MjData`, or an MJCF file.
 
-`mujoco_objects` decides which bodies and geoms are objects, `mujoco_joints` which have hinges. Poses are the bodies'
-own (xpos, xquat). Infinite planes are cut to twice the model's extent. Deformable bodies and skins are left out.
-Nothing here steps or changes the simulation.
+`mujoco_objects` decides which bodies and geoms are objects. Poses are the bodies' own (xpos, xquat). Infinite
+planes are cut to twice the model's extent. Deformable bodies and skins are left out. Nothing here steps or changes the
+simulation.
 """
 
 from __future__ import annotations
@@ -22,7 +22,6 @@ from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.mjcf_files import check_files
 from scene2hap.scene.engines.mujoco_contacts import contact_points, contacts_of
 from scene2hap.scene.engines.mujoco_geoms import GeomReader, authored_pose
-from scene2hap.scene.engines.mujoco_joints import hinges
 from scene2hap.scene.engines.mujoco_objects import (
     WORLD,
     ModelObjects,
@@ -31,12 +30,15 @@ from scene2hap.scene.engines.mujoco_objects import (
     objects_of,
     require_model,
 )
-from scene2hap.scene.grouping.empty_names import says_nothing
 from scene2hap.scene.grouping.object_maker import ObjectMaker
+from scene2hap.scene.joints import Joint, Motion, hinges, pivots
+from scene2hap.scene.names import says_nothing
 from scene2hap.scene.objects import with_relative_heights
 from scene2hap.scene.plausibility.units import metres_per_unit, warn_if_implausible
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.scene.snapshot import SceneSnapshot
+
+_BALL, _HINGE = 1, 3  # types of joints
 
 
 def snapshot(
@@ -86,8 +88,8 @@ def snapshot(
     if not objects:
         why = "the model has no geoms" if geom_groups is None else f"no geom is in geom_groups {set(geom_groups)}"
         raise SceneError(f"{why}; nothing in it can be touched.")
-    of_body = {item.body: made for item, made in zip(items.all, objects, strict=True) if item.body != WORLD}
-    held = hinges(model, data, of_body, metres)
+    of_body = {str(item.body): made for item, made in zip(items.all, objects, strict=True) if item.body != WORLD}
+    held = hinges(of_body, pivots(_joints(model, data), of_body), metres)
     objects = [replace(made, hinge=held.get(made.id)) for made in objects]
     touching = None if contacts is None else contacts_of(model, contact_points(data), items, metres)
     title = name or model.names[: model.names.index(b"\0")].decode("utf-8", "replace") or "mujoco"
@@ -145,6 +147,22 @@ def _poses(model: Any, data: Any, items: ModelObjects, unit_m: float) -> PoseTab
         still = authored_pose(model, int(geoms[k]))
         positions[of_world[k]], rotations[of_world[k]] = still.position_m, still.rotation_xyzw
     return PoseTable(items.ids, positions * unit_m, rotations)
+
+
+def _joints(model: Any, data: Any) -> dict[str, Joint]:
+    """Return the joint of each body, by the body's number: that of several joints turns if all of them turn.
+
+    Source: MuJoCo documentation (Google DeepMind), XML reference, `joint`; mjData: xanchor, xaxis.
+    """
+    found = {}
+    for body in range(1, model.nbody):
+        first, n = int(model.body_jntadr[body]), int(model.body_jntnum[body])
+        kinds = model.jnt_type[first : first + n].tolist() if n else []
+        motion: Motion = "fixed" if not n else "turns" if {*kinds} <= {_BALL, _HINGE} else "other"
+        axis = np.array(data.xaxis[first]) if kinds == [_HINGE] else None
+        anchor = np.array(data.xanchor[first]) if n else None
+        found[str(body)] = Joint(str(model.body_parentid[body]), motion, anchor, axis)
+    return found
 
 
 @contextmanager

@@ -14,7 +14,7 @@
    object has the words that the names of all its geoms, or their meshes, begin with (`milk_mesh`; `club` of
    `club_handle` and `club_head`). An upright plane of the world is a `floor`. An unnamed body without any of these is
    called by its id, which has the parent's name.
-5. A body that turns on another has a hinge (`mujoco_joints`).
+5. A body that turns on another has a hinge (`scene.joints`).
 """
 
 from __future__ import annotations
@@ -30,11 +30,10 @@ import numpy as np
 
 from scene2hap.common.arrays import Bools, Floats, Indices
 from scene2hap.errors import SceneError
-from scene2hap.scene.copies import name_words
 from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.mujoco_geoms import colours_rgba
-from scene2hap.scene.grouping.empty_names import says_nothing
 from scene2hap.scene.grouping.groups import Group, group_objects, unique_ids
+from scene2hap.scene.names import name_words, says_nothing
 from scene2hap.scene.tree import AuthoredNode, Piece
 
 WORLD = 0

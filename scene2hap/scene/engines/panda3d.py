@@ -21,15 +21,14 @@ from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.panda3d_geoms import GeomReader
-from scene2hap.scene.grouping.collapsed import warn_of_collapsed, without_collapsed
 from scene2hap.scene.grouping.groups import Group, Grouping, group_objects, unique_ids
+from scene2hap.scene.grouping.not_drawn import warn_of_collapsed, without_collapsed
 from scene2hap.scene.grouping.object_maker import ObjectMaker
-from scene2hap.scene.grouping.rigid_meshes import rigid_part
 from scene2hap.scene.objects import UpAxis, with_relative_heights
 from scene2hap.scene.plausibility.units import metres_per_unit, warn_if_implausible
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.scene.tree import AuthoredNode, Matrix
+from scene2hap.scene.tree import AuthoredNode, Matrix, rigid_part
 
 _VIEWPOINT = "camera"
 """Name of the node above Panda3D's camera. What is below it, such as a sky or a tool in the hand, has its own name."""
@@ -54,7 +53,9 @@ def snapshot(
     """
     if up_axis not in ("y", "z", None):
         raise SceneError(f"up_axis is {up_axis!r}; it must be 'y', 'z' or None.")
-    up_axis = up_axis or _up_axis(engine("panda3d.core"))
+    core = engine("panda3d.core")
+    is_y_up = core.get_default_coordinate_system() in (core.CS_yup_right, core.CS_yup_left)
+    up_axis = up_axis or ("y" if is_y_up else "z")
     metres = metres_per_unit(unit_m)
     graph = _Graph.read(render)
     maker = ObjectMaker(up_axis, metres)
@@ -74,10 +75,6 @@ def snapshot(
     if unit_m is None:
         warn_if_implausible(scene, source="engine")
     return scene
-
-
-def _up_axis(core: Any) -> UpAxis:
-    return "y" if core.get_default_coordinate_system() in (core.CS_yup_right, core.CS_yup_left) else "z"
 
 
 class PoseReader:

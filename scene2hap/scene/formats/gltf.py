@@ -25,9 +25,8 @@ from scene2hap.scene.formats.gltf_deformation import Deformation, Deformations
 from scene2hap.scene.formats.gltf_draco import DRACO, draco
 from scene2hap.scene.formats.gltf_instances import INSTANCES, instances
 from scene2hap.scene.formats.gltf_materials import GltfMaterials, TexturedMaterial
-from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
+from scene2hap.scene.looks.appearance import Appearance, FaceMaterial, painted, srgb
 from scene2hap.scene.looks.texture_files import TextureFiles
-from scene2hap.scene.looks.vertex_colors import painted, srgb
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece, transform
 

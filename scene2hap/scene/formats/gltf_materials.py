@@ -17,10 +17,9 @@ from scene2hap.common import checks
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.formats.gltf_accessors import view
 from scene2hap.scene.formats.gltf_container import GltfFile, Json, data_uri, mapping, natural
-from scene2hap.scene.looks.appearance import FaceMaterial
+from scene2hap.scene.looks.appearance import FaceMaterial, srgb
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.looks.textures import EncodedTexture
-from scene2hap.scene.looks.vertex_colors import srgb
 
 Affine = NDArray[np.float64]
 """(2, 3) matrix from texture coordinates (u, v, 1) of the mesh to those of the image."""

@@ -14,8 +14,7 @@ from typing import Any
 import numpy as np
 
 from scene2hap.errors import SceneError, SceneFormatError
-from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
-from scene2hap.scene.looks.vertex_colors import painted
+from scene2hap.scene.looks.appearance import Appearance, FaceMaterial, painted
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
 
 _HEADER_BYTES = 1 << 16

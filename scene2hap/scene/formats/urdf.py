@@ -27,9 +27,9 @@ from scene2hap.common import checks
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.scene import limits, solids
 from scene2hap.scene.files import read_bytes
-from scene2hap.scene.formats.joints import Joint, pivots
 from scene2hap.scene.formats.urdf_files import UrdfFiles
 from scene2hap.scene.formats.xml_files import walk_xml
+from scene2hap.scene.joints import Joint, pivots
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.pose import Pose

@@ -9,8 +9,8 @@ from urllib.parse import unquote
 from urllib.request import url2pathname
 from xml.etree.ElementTree import Element
 
+from scene2hap.common.files import is_there
 from scene2hap.common.printable import quoted
-from scene2hap.common.text_files import is_there
 from scene2hap.errors import SceneError
 from scene2hap.scene.files import address, outside, usable_name
 

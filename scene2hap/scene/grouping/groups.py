@@ -37,17 +37,20 @@ import numpy as np
 
 from scene2hap.common import checks
 from scene2hap.errors import SceneError
-from scene2hap.scene.grouping.empty_names import abbreviates, names_a_place, names_a_thing, says_nothing
 from scene2hap.scene.grouping.loose_parts import loose_parts
 from scene2hap.scene.grouping.material_parts import rejoined
 from scene2hap.scene.grouping.not_drawn import without_undrawn
-from scene2hap.scene.grouping.part_names import (
+from scene2hap.scene.grouping.split import Member, split, stand_apart
+from scene2hap.scene.names import (
+    abbreviates,
+    names_a_place,
+    names_a_thing,
     names_another_thing,
     names_part,
     names_structure,
     names_thing_in,
+    says_nothing,
 )
-from scene2hap.scene.grouping.split import Member, split, stand_apart
 from scene2hap.scene.tree import AuthoredNode, Matrix, Piece
 
 Grouping = Literal["authored", "leaf", "loose"] | int | Mapping[str, str]

@@ -16,8 +16,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from scene2hap.scene.grouping.empty_names import names_a_thing
 from scene2hap.scene.grouping.split import Member, stand_apart
+from scene2hap.scene.names import names_a_thing
 from scene2hap.scene.tree import AuthoredNode
 
 _SERIAL = r"(?:_primitive)?[ ._-]?(?:\d+|[0-9a-f]{6})"

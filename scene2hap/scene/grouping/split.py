@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from scene2hap.scene import limits
 from scene2hap.scene.geometry import Bounds, bounds_of, distances, joined
-from scene2hap.scene.grouping.part_names import has_own_noun
+from scene2hap.scene.names import has_own_noun
 from scene2hap.scene.tree import Matrix, Piece
 
 # Two items are separate if the gap exceeds this share of the group's diagonal (assumed).

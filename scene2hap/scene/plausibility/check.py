@@ -12,11 +12,10 @@ import numpy as np
 
 from scene2hap.common import checks
 from scene2hap.common.arrays import Floats
-from scene2hap.scene.copies import name_words
-from scene2hap.scene.grouping.empty_names import names_a_place
 from scene2hap.scene.hinges import HINGE_PLAY_M
+from scene2hap.scene.names import name_words, names_a_place
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
-from scene2hap.scene.plausibility.finding import Finding
+from scene2hap.scene.plausibility import Finding
 from scene2hap.scene.plausibility.resting import FEW, FLOOR_FLATNESS, floating_inside, misplaced, resting_share
 from scene2hap.scene.plausibility.units import implausible
 

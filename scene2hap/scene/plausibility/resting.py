@@ -16,7 +16,7 @@ from scene2hap.common.arrays import Bools, Floats, Indices
 from scene2hap.common.counted import first_of
 from scene2hap.scene.geometry import distances, heights_at
 from scene2hap.scene.objects import SceneData, SceneObject
-from scene2hap.scene.plausibility.finding import Finding
+from scene2hap.scene.plausibility import Finding
 
 FLOOR_FLATNESS = 0.2
 """Greatest thickness of a floor, as a share of its narrower side (assumed)."""

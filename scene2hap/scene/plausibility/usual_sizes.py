@@ -1,4 +1,4 @@
-"""UsualSpan sizes of named objects: height of the top above the floor, or longest edge.
+"""Usual sizes of named objects: height of the top above the floor, or longest edge.
 
 Names are read narrowly: a name that may mean another object (a doormat, a chair leg) has no usual size. The lexicon of
 `llm` has far more nouns, with bounds so wide that miniatures and kits at half scale pass. Finding the unit needs

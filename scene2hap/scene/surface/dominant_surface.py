@@ -38,7 +38,7 @@ from scene2hap.scene.surface.cuboid import cuboid_bounds_m
 from scene2hap.scene.surface.frame import LIFTED, by_uprightness, facing, pointing, tightest_frame
 from scene2hap.scene.surface.outline import Outline
 from scene2hap.scene.surface.plate_edge import windows
-from scene2hap.scene.surface.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
+from scene2hap.scene.surface.rays import Hits, cast_grid, cut, edges_seen, first_solids, median_span, share_open
 from scene2hap.scene.surface.section import section_outline
 from scene2hap.scene.surface.winding import edge_keys, well_wound
 
@@ -231,7 +231,7 @@ def _plate(
     if thickness <= SAME_PLACE * size:
         thickness, middle = 0.0, float(np.median(solids.top))
         flags = (*flags, "zero-thickness")
-    spans = spans or _spans(outline(triangles), at_least=_FILLED_OUTLINE * cell * len(paired))
+    spans = spans or _spans(edges_seen(triangles), at_least=_FILLED_OUTLINE * cell * len(paired))
     if spans is None:
         # No rectangle of medians fits an L, a ring with gaps or a heap, so the bounding rectangle is used.
         spans = (high - low)[:2], (high + low)[:2] / 2

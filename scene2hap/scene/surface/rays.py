@@ -211,7 +211,7 @@ def cut(triangles: Floats, height: float) -> Floats:
     return np.stack([(tip + (end - tip) * ((height - tip[2]) / (end[2] - tip[2])))[:2] for end in ends], axis=1)
 
 
-def outline(triangles: Floats) -> Floats:
+def edges_seen(triangles: Floats) -> Floats:
     """Return edges (2, 2, 3 m) [m], by coordinate and end, of triangles (3, 3, m), seen along w."""
     flat = triangles[:2]
     return np.stack((flat.reshape(2, -1), np.roll(flat, -1, axis=1).reshape(2, -1)), axis=1)

@@ -11,8 +11,8 @@ from collections.abc import Callable, Mapping, Sequence
 from threading import Thread
 from typing import Protocol
 
-from scene2hap.common.failures import failure_of
 from scene2hap.common.warning import warn_of
+from scene2hap.errors import failure_of
 from scene2hap.haptics import Bands
 from scene2hap.propagation.controls import NoPropagation
 from scene2hap.propagation.exponential_plate import ExponentialPlate

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from scene2hap.audio.bands import split_bands
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.threshold import threshold_db
-from scene2hap.common.cached_while_used import CacheWhileUsed
+from scene2hap.common.caches import CacheWhileUsed
 from scene2hap.common.forks import lock_of_process, renew_in_child
 from scene2hap.haptics import Bands
 from scene2hap.render.loop_bank import LoopBank

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from scene2hap.common import renaming
+from scene2hap.common import files
 from scene2hap.errors import unwritable
 
 
@@ -25,7 +25,7 @@ def test_a_rename_is_repeated_until_a_scanner_has_closed_the_file(
     (tmp_path / "draft").write_text("new")
     (tmp_path / "file").write_text("old")
     pauses: list[float] = []
-    monkeypatch.setattr(renaming.time, "sleep", pauses.append)
+    monkeypatch.setattr(files.time, "sleep", pauses.append)
     replace = os.replace
 
     def while_scanned(source: Path, target: Path) -> None:
@@ -34,21 +34,21 @@ def test_a_rename_is_repeated_until_a_scanner_has_closed_the_file(
         replace(source, target)
 
     monkeypatch.setattr(os, "replace", while_scanned)
-    renaming.replace(tmp_path / "draft", tmp_path / "file")
+    files.replace(tmp_path / "draft", tmp_path / "file")
     assert (tmp_path / "file").read_text() == "new"
     assert len(pauses) == 3
 
 
 def test_a_file_that_stays_open_is_an_error_in_the_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pauses: list[float] = []
-    monkeypatch.setattr(renaming.time, "sleep", pauses.append)
+    monkeypatch.setattr(files.time, "sleep", pauses.append)
 
     def open_for_ever(source: Path, target: Path) -> None:
         raise rejection(32)
 
     monkeypatch.setattr(Path, "rename", open_for_ever)
     with pytest.raises(PermissionError):
-        renaming.rename(tmp_path / "a", tmp_path / "b")
+        files.rename(tmp_path / "a", tmp_path / "b")
     assert 0.5 < sum(pauses) < 2.0
 
 
@@ -62,7 +62,7 @@ def test_other_errors_are_raised_at_once(tmp_path: Path, monkeypatch: pytest.Mon
 
     monkeypatch.setattr(Path, "rename", fail)
     with pytest.raises(type(problem)):
-        renaming.rename(tmp_path / "a", tmp_path / "b")
+        files.rename(tmp_path / "a", tmp_path / "b")
     assert len(tries) == 1
 
 
@@ -79,7 +79,7 @@ def test_a_write_protected_target_is_an_error_at_once(tmp_path: Path, monkeypatc
 
     monkeypatch.setattr(os, "replace", reject)
     with pytest.raises(PermissionError):
-        renaming.replace(tmp_path / "draft", tmp_path / "file")
+        files.replace(tmp_path / "draft", tmp_path / "file")
     (tmp_path / "file").chmod(0o644)
     assert len(tries) == 1
 
@@ -89,9 +89,9 @@ def test_windows_rejects_the_replacement_of_an_open_file(tmp_path: Path) -> None
     (tmp_path / "draft").write_text("new")
     (tmp_path / "file").write_text("old")
     with (tmp_path / "file").open(), pytest.raises(PermissionError) as caught:
-        renaming.replace(tmp_path / "draft", tmp_path / "file")
+        files.replace(tmp_path / "draft", tmp_path / "file")
     assert "open" in unwritable("file", caught.value)
-    renaming.replace(tmp_path / "draft", tmp_path / "file")
+    files.replace(tmp_path / "draft", tmp_path / "file")
     assert (tmp_path / "file").read_text() == "new"
 
 

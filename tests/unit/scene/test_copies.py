@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from scene2hap.scene.copies import copy_key, material_names, name_words
+from scene2hap.scene.copies import copy_key, material_names
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
+from scene2hap.scene.names import name_words
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import Box, TriMesh
@@ -27,6 +28,9 @@ CUBE = replace(box("chair_1", (0.4, 0.4, 0.4), (0, 0, 0)), instance_key="cube")
         ("facade_7", ("facade",)),
         ("chair_left", ("chair",)),
         ("冷蔵庫_2", ("冷蔵庫",)),
+        ("KüchenTisch_2", ("küchen", "tisch")),
+        ("ÉTAGÈRE", ("étagère",)),
+        ("БелыйСтол", ("белый", "стол")),
         ("017", ()),
         ("", ()),
     ],

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from scene2hap import LexiconBackend, infer_haptics, load_scene
-from scene2hap.scene.grouping.empty_names import says_nothing
+from scene2hap.scene.names import says_nothing
 
 SQUARE = "v 0 0 0\nv 0.1 0 0\nv 0.1 0.3 0\nv 0 0.3 0\n"
 URDF = """<robot name="any"><link name="{name}"><visual><geometry><box size="0.1 0.1 0.3"/></geometry></visual></link>

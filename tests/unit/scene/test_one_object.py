@@ -10,7 +10,7 @@ import pytest
 
 from gltf_builder import CUBE, CUBE_FACES
 from scene2hap.scene.grouping.groups import group_objects
-from scene2hap.scene.grouping.part_names import names_part
+from scene2hap.scene.names import names_part
 from scene2hap.scene.tree import AuthoredNode, Piece, transform
 
 CORNER, EXTENT = CUBE.min(axis=0), np.ptp(CUBE, axis=0)

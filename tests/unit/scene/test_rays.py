@@ -11,10 +11,10 @@ from scene2hap.scene.surface.rays import (
     Hits,
     cast_grid,
     cut,
+    edges_seen,
     first_solids,
     free_space,
     median_span,
-    outline,
     share_open,
 )
 
@@ -180,7 +180,7 @@ def test_free_space_is_on_the_side_that_sees_farther() -> None:
 
 
 def test_the_outline_of_a_cube_is_as_wide_as_the_cube() -> None:
-    assert median_span(outline(UNIT), 0, 32) == pytest.approx((1.0, 0.0))
+    assert median_span(edges_seen(UNIT), 0, 32) == pytest.approx((1.0, 0.0))
 
 
 def test_median_span_of_zero_width_is_none() -> None:

@@ -21,7 +21,7 @@ from scene2hap.scene.formats.stl_ply import read_stl_ply
 from scene2hap.scene.geometry import distances
 from scene2hap.scene.grouping.split import Member, split
 from scene2hap.scene.shapes import Box, TriMesh
-from scene2hap.scene.surface import dominant_surface as dominant_surface_module, surfaces
+from scene2hap.scene.surface import dominant_surface as dominant_surface_module, surface_cache
 from scene2hap.scene.surface.cuboid import cuboid_bounds_m
 from scene2hap.scene.surface.dominant_surface import dominant_surface
 from scene2hap.scene.tree import Piece
@@ -91,7 +91,7 @@ def tetrahedra(folder: Path, n: int) -> Path:
 
 
 def test_distinct_shapes_are_limited_by_a_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(surfaces, "_FREE", 50_000)
+    monkeypatch.setattr(surface_cache, "_FREE", 50_000)
     assert "box-fallback" not in load_scene(tetrahedra(tmp_path, 1)).objects[0].surface.flags
     with pytest.warns(SceneWarning, match="object 't[1-3]' brings the rays that measure its shapes.*boxes") as warned:
         first, *_, last = load_scene(tetrahedra(tmp_path, 5)).objects
@@ -103,8 +103,8 @@ def test_distinct_shapes_are_limited_by_a_budget(tmp_path: Path, monkeypatch: py
 
 def test_a_shape_above_the_budget_leaves_the_budget_to_others(monkeypatch: pytest.MonkeyPatch) -> None:
     """A mesh that is refused has used none of it."""
-    monkeypatch.setattr(surfaces, "_FREE", 200_000)
-    measured, up = surfaces.Surfaces(), np.array([0.0, 1.0, 0.0])
+    monkeypatch.setattr(surface_cache, "_FREE", 200_000)
+    measured, up = surface_cache.SurfaceCache(), np.array([0.0, 1.0, 0.0])
     rough, plain = trimesh.creation.icosphere(5), trimesh.creation.icosphere(1)
     with pytest.warns(SceneWarning, match="the first"):
         assert "box-fallback" in measured.of(TriMesh(rough.vertices, rough.faces), up, "the first").flags
@@ -115,14 +115,14 @@ def test_vertices_of_scene_json_raise_the_budget(tmp_path: Path, monkeypatch: py
     document = json.loads(load_scene(tetrahedra(tmp_path, 3)).to_json())
     for row in document["objects"]:
         del row["surface"]
-    monkeypatch.setattr(surfaces, "_FREE", 0)
-    monkeypatch.setattr(surfaces, "_PER_VERTEX", 1e6)
+    monkeypatch.setattr(surface_cache, "_FREE", 0)
+    monkeypatch.setattr(surface_cache, "_PER_VERTEX", 1e6)
     assert len(SceneSnapshot.from_json(json.dumps(document)).objects) == 3
 
 
 def test_copies_and_boxes_use_no_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(surfaces, "_FREE", 0)
-    monkeypatch.setattr(surfaces, "_PER_VERTEX", 0.0)
+    monkeypatch.setattr(surface_cache, "_FREE", 0)
+    monkeypatch.setattr(surface_cache, "_PER_VERTEX", 0.0)
     objects = [
         {
             "id": str(i),
@@ -383,7 +383,7 @@ def test_triangles_are_counted_before_geoms_are_drawn(
 def test_generated_shapes_do_not_raise_the_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Otherwise each sphere, a few bytes of MJCF, would raise the budget."""
     pytest.importorskip("mujoco")
-    monkeypatch.setattr(surfaces, "_FREE", 100_000)
+    monkeypatch.setattr(surface_cache, "_FREE", 100_000)
     balls = "".join(f'<body pos="{9 * i} 0 0"><geom size="{1 + i / 10}"/></body>' for i in range(10))
     with pytest.warns(SceneWarning, match="where 0 vertices are stored|where 8 vertices are stored"):
         load_scene(mjcf(tmp_path, balls), unit_m=1.0)

@@ -21,8 +21,8 @@ import numpy as np
 from pxr import Gf, UsdPhysics
 
 from scene2hap.errors import SceneFormatError
-from scene2hap.scene.formats.joints import Joint, Motion, pivots
 from scene2hap.scene.formats.usd.values import value
+from scene2hap.scene.joints import Joint, Motion, pivots
 from scene2hap.scene.tree import AuthoredPivot, Matrix
 
 _WORLD = ""

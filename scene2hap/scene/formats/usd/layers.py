@@ -21,8 +21,8 @@ from typing import Any
 
 from pxr import Sdf, Tf
 
+from scene2hap.common.files import is_there
 from scene2hap.common.printable import quoted
-from scene2hap.common.text_files import is_there
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.files import check_file, inside, usable_name
 from scene2hap.scene.formats.usd.archive import Archive

@@ -20,8 +20,7 @@ from scene2hap.errors import SceneFormatError
 from scene2hap.scene.formats.usd.layers import Layers
 from scene2hap.scene.formats.usd.meshes import Triangles
 from scene2hap.scene.formats.usd.values import name_of, rest_time, value
-from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
-from scene2hap.scene.looks.vertex_colors import painted, srgb
+from scene2hap.scene.looks.appearance import Appearance, FaceMaterial, painted, srgb
 
 # Most nodes between a texture and its primvar: a transform or two (assumed).
 _MAX_NODES_OF_ST = 4

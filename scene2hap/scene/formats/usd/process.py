@@ -13,13 +13,15 @@ import os
 import pickle
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
 from scene2hap import errors
-from scene2hap.common.interpreter import can_start_python
-from scene2hap.errors import SceneError, SceneFormatError, reason_of
+from scene2hap.common.worker_processes import can_start_python
+from scene2hap.errors import MissingExtra, SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
+from scene2hap.scene.files import check_file
 from scene2hap.scene.tree import AuthoredScene
 
 TIME_S, TIME_S_PER_BYTE, TIME_S_PER_PRIM = 30.0, 4e-7, 2e-3
@@ -51,11 +53,16 @@ class Answer(NamedTuple):
     message: str = ""
 
 
-def read_in_child(path: Path, assets_root: Path) -> AuthoredScene:
-    """Return the scene in a USD file, read in a child process.
+def read_usd(path: Path, assets_root: Path) -> AuthoredScene:
+    """Return the composed scene of a USD file with its looks and masses; `up_axis` and `unit_m` come from the stage.
 
-    Raises: SceneError or MissingExtra of the child; SceneFormatError: the child crashed, or ran out of memory or time.
+    Layers and textures are read only from inside `assets_root`. Matrices, sizes and vertices are in the stage's unit.
+    Raises: MissingExtra: usd-core is not installed. SceneFormatError: the file is not USD, is broken, or takes too much
+    time or memory. SceneError: it is missing or too large, or needs a layer that is missing or outside `assets_root`.
     """
+    if find_spec("pxr") is None:
+        raise MissingExtra(f"{path.name!r} is USD, and its reader is not installed. Run: pip install 'scene2hap[usd]'")
+    check_file(path)
     if not can_start_python():
         from scene2hap.scene.formats.usd.stage import read_stage
 

@@ -263,7 +263,9 @@ class _Reader:
             # Masses from density grow with the scale, so copies of different scale are read separately.
             key = (int(which[number]), round(float(np.linalg.det(world[:3, :3])), 9))
             if key not in made:
-                made[key] = self._prototype(prototype, replace(above, world=world, predicate=_PROTOTYPE))
+                is_drawn = prototype and prototype.IsActive()
+                within = replace(above, world=world, predicate=_PROTOTYPE)
+                made[key] = self._node(prototype, within) if is_drawn else None
             elif (again := made[key]) is not None:
                 self._size.add_nodes(sum(1 for _ in again.walk()))
                 self._size.add_triangles(again.n_triangles)
@@ -271,9 +273,6 @@ class _Reader:
             if node is not None:
                 copies.append(replace(node, matrix=matrix @ node.matrix, is_object=True, key=""))
         return tuple(copies)
-
-    def _prototype(self, prim: Any, above: _Above) -> AuthoredNode | None:
-        return self._node(prim, above) if prim and prim.IsActive() else None
 
 
 def _key(prim: Any) -> str:

@@ -22,8 +22,8 @@ from scene2hap import (
     materials,
     plate_modes,
 )
-from scene2hap.common import byte_bounded_lru
-from scene2hap.common.byte_bounded_lru import ByteBoundedLru
+from scene2hap.common import caches
+from scene2hap.common.caches import ByteBoundedLru
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation.bands.sampling import Sampling
 from scene2hap.propagation.bodies.infinite_body import InfiniteBody
@@ -162,7 +162,7 @@ def test_the_cache_computes_once_and_drops_the_least_recently_used() -> None:
 
 
 def test_caches_share_one_limit_of_bytes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(byte_bounded_lru, "MOST_BYTES", 3 * 8000)
+    monkeypatch.setattr(caches, "MOST_BYTES", 3 * 8000)
     monkeypatch.setattr(ByteBoundedLru, "_shelf", OrderedDict())
     monkeypatch.setattr(ByteBoundedLru, "_held_bytes", 0)
     asked: list[float] = []

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.ndimage import distance_transform_edt
 
-from scene2hap.scene.capture.outline import mark
+from scene2hap.scene.capture.shot_rendering import mark
 
 
 @pytest.mark.parametrize("width", [1, 2, 4, 7])

@@ -31,7 +31,7 @@ from looks import (
     shown,
 )
 from scene2hap.scene.load import load_scene
-from scene2hap.scene.looks.vertex_colors import srgb
+from scene2hap.scene.looks.appearance import srgb
 
 # -- where images come from ------------------------------------------------------------------------------------------
 

@@ -9,7 +9,7 @@ import pytest
 
 from garbage import only_new_garbage
 from scene2hap import AudioClip, HapticLoop, HapticSession, Touch
-from scene2hap.common.cached_while_used import CacheWhileUsed
+from scene2hap.common.caches import CacheWhileUsed
 from scene2hap.haptics import Bands
 from scene2hap.session.mix import prepared_loops
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop

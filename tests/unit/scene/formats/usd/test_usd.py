@@ -11,7 +11,7 @@ import pytest
 from looks import BLUE, GREEN, UPRIGHT, image_file, looks, refused, shown
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene.load import load_scene
-from scene2hap.scene.looks.vertex_colors import srgb
+from scene2hap.scene.looks.appearance import srgb
 from scene2hap.scene.objects import SceneObject
 from usd_writing import (
     CUBE_POINTS,

@@ -10,13 +10,13 @@ from pathlib import Path
 import pytest
 
 from scene2hap.common import folder_locks
-from scene2hap.common.draft_sets import DraftSet
-from scene2hap.common.text_files import draft_path
+from scene2hap.common.files import draft_path
+from scene2hap.export.draft_set import DraftSet
 
 WRITES = """
 import os, sys
 from pathlib import Path
-from scene2hap.common.draft_sets import DraftSet
+from scene2hap.export.draft_set import DraftSet
 with DraftSet() as drafts:
     drafts.write(Path(sys.argv[1]) / "a.wav", b"half")
     print("written", flush=True)
@@ -29,7 +29,7 @@ FORKS = """
 import os, sys
 from contextlib import ExitStack
 from pathlib import Path
-from scene2hap.common.draft_sets import DraftSet
+from scene2hap.export.draft_set import DraftSet
 from scene2hap.common.folder_locks import lock_folder
 folder = Path(sys.argv[1])
 reads, writes = os.pipe()
@@ -84,7 +84,7 @@ def test_files_of_others_stay(tmp_path: Path) -> None:
 
 
 def test_without_locks_only_old_drafts_are_removed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("scene2hap.common.draft_sets.lock_folder", lambda *_, **__: None)
+    monkeypatch.setattr("scene2hap.export.draft_set.lock_folder", lambda *_, **__: None)
     old, new = draft_path(tmp_path / "a.wav", "draft"), draft_path(tmp_path / "a.wav", "draft")
     for draft in (old, new):
         draft.write_bytes(b"half")

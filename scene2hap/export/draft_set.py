@@ -12,8 +12,8 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import Self
 
+from scene2hap.common.files import draft_path, require_place
 from scene2hap.common.folder_locks import is_old, lock_folder
-from scene2hap.common.text_files import draft_path, require_place
 
 _KIND = "draft"
 _OURS = re.compile(rf"\..*\.[0-9a-f]{{32}}\.{_KIND}(\..*)?", re.DOTALL)

@@ -7,7 +7,7 @@ import pytest
 
 from garbage import no_garbage_collection
 from scene2hap import materials
-from scene2hap.common.cached_while_used import cached_while_used
+from scene2hap.common.caches import cached_while_used
 from scene2hap.propagation.bodies.lattice_body import lattice_body
 from scene2hap.propagation.bodies.modal_body import modal_body
 from scene2hap.propagation.modal.in_plane import in_plane_modes

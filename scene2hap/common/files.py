@@ -1,4 +1,9 @@
-"""Files: reading of regular ones with a size limit, and writing whole files or none."""
+"""Files: reading of regular ones with a size limit, writing whole files or none, and renames that Windows delays.
+
+Windows rejects the rename of a file or folder that another program has open. Virus scanners and indexers open each new
+file, but only for a moment, and a session opens the files of a bundle while it reads them. So a rejected rename is
+repeated for a short time.
+"""
 
 from __future__ import annotations
 
@@ -7,13 +12,20 @@ import os
 import re
 import stat
 import sys
+import time
 import uuid
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, Final
 
-from scene2hap.common.renaming import replace
+from scene2hap.errors import ACCESS_DENIED, SHARING_VIOLATION
+
+Stamp = tuple[int, int, int]
+"""File number, time of the last change [ns], and size [bytes]."""
+
+PAUSES_S: Final = (0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.3)
+"""Pauses before each repetition of a rename [s]; assumed: together a second, as scanners need for some megabytes."""
 
 MAX_BYTES = 1 << 24
 """Most bytes of one file; assumed: a hundred times the largest handwritten one, and parsed in seconds."""
@@ -40,6 +52,15 @@ def is_there(path: Path) -> bool:
     except (FileNotFoundError, NotADirectoryError):
         return False
     return True
+
+
+def file_stamp(path: Path) -> Stamp | None:
+    """Return a stamp that changes whenever a file is written or replaced; None if there is no file."""
+    try:
+        found = path.stat()
+    except (OSError, ValueError):
+        return None
+    return found.st_ino, found.st_mtime_ns, found.st_size
 
 
 def read_small(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) -> bytes:
@@ -155,3 +176,37 @@ def write_whole(path: Path, content: str | bytes) -> None:
     """Write a file whole or not at all; see `draft_of`. Raises: OSError."""
     with draft_of(path) as draft:
         draft.write_bytes(content.encode() if isinstance(content, str) else content)
+
+
+def rename(source: Path, target: Path) -> None:
+    """Rename a file or a folder. Raises: OSError: as `Path.rename`, and on Windows if it stays open."""
+    _repeated(lambda: source.rename(target), target)
+
+
+def replace(source: Path, target: Path) -> None:
+    """Rename a file, and replace the target. Raises: OSError: as `os.replace`, and on Windows if either stays open."""
+    _repeated(lambda: os.replace(source, target), target)
+
+
+def _repeated(attempt: Callable[[], object], target: Path) -> None:
+    for pause_s in PAUSES_S:
+        try:
+            attempt()
+        except OSError as cause:
+            if not _may_be_open(cause, target):
+                raise
+            time.sleep(pause_s)
+        else:
+            return
+    attempt()
+
+
+def _may_be_open(cause: OSError, target: Path) -> bool:
+    """Return True for the errors of Windows for an open file, or for a folder with one, which a pause may end."""
+    code = getattr(cause, "winerror", None)
+    if code == ACCESS_DENIED:
+        try:
+            return bool(target.stat().st_mode & stat.S_IWRITE)  # a write-protected target stays so
+        except OSError:
+            return True
+    return code == SHARING_VIOLATION

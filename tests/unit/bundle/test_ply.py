@@ -6,8 +6,8 @@ import trimesh
 from hypothesis import given, settings, strategies as st
 
 from scene2hap import Box, TriMesh
+from scene2hap.bundle.ply import decode_ply, encode_ply
 from scene2hap.errors import SceneFormatError
-from scene2hap.scene.ply import decode_ply, encode_ply
 
 
 @settings(max_examples=50)

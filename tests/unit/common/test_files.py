@@ -15,7 +15,7 @@ from scene2hap.audio.sources.library import FolderLibrary
 from scene2hap.bridge.config import BridgeConfig
 from scene2hap.bundle.folder_replacement import require_replaceable
 from scene2hap.clips.ahap import read_ahap
-from scene2hap.common.text_files import draft_of, drafts_of, read_small, read_small_text, require_place, write_whole
+from scene2hap.common.files import draft_of, drafts_of, read_small, read_small_text, require_place, write_whole
 from scene2hap.errors import AudioError, ConfigError, Scene2HapError
 from scene2hap.llm.prompts import Prompts
 from systems import needs_long_names

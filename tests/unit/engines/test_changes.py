@@ -7,7 +7,7 @@ import math
 import pytest
 
 from scene2hap import Pose
-from scene2hap.scene.engines.motion import moved
+from scene2hap.engines.changes import moved
 
 HOME = Pose((1, 2, 3), (0, 0, math.sin(0.1), math.cos(0.1)))
 
@@ -32,12 +32,6 @@ def turned(angle_rad: float) -> Pose:
 )
 def test_jitter_is_not_motion(pose: Pose, is_moved: bool) -> None:
     assert moved({"a": pose}, {"a": HOME}) == ({"a": pose} if is_moved else {})
-
-
-def test_motion_within_the_given_bounds_is_ignored() -> None:
-    near = Pose((1.05, 2, 3), HOME.rotation_xyzw)
-    assert moved({"a": near}, {"a": HOME}, by_m=0.1) == {}
-    assert moved({"a": turned(0.1)}, {"a": HOME}, by_rad=0.2) == {}
 
 
 def test_new_objects_count_as_moved_and_missing_objects_do_not() -> None:

@@ -20,8 +20,8 @@ _PER_VERTEX = 100.0
 """Further tests for each vertex that the file stores (assumed: 4,000 different meshes of 200 vertices)."""
 
 
-class Surfaces:
-    """Cache of measured surfaces. `work` is the budget; the reader of a file raises it by the file's vertices."""
+class SurfaceCache:
+    """Measured surfaces by mesh. `work` is the budget; the reader of a file raises it by the file's vertices."""
 
     def __init__(self) -> None:
         self.work: limits.Budget = limits.Budget(
