@@ -39,6 +39,8 @@ WRONG = 1e-10
 """Residual of A g = b itself, relative to b, above which a column is not solved."""
 MOST_STEPS = 48
 """Most steps; more would take as long as LAPACK."""
+_PROMISING = 12
+"""Steps after which a solution is given up if no column is converging fast enough for `MOST_STEPS`."""
 AT_ONCE_BYTES = 64_000_000
 """Memory of all steps of the columns that are solved at once."""
 _MODES_AT_ONCE = 64
@@ -166,7 +168,11 @@ class _Columns:
         left = self._preconditioned(free)
         size, found = np.linalg.norm(left, axis=0), np.zeros_like(left)
         steps: list[tuple[Complex, Complex]] = []
-        while len(steps) < MOST_STEPS and (np.linalg.norm(left, axis=0) > CONVERGED * size).any():
+        while len(steps) < MOST_STEPS:
+            residual = np.linalg.norm(left, axis=0)
+            is_late = residual > CONVERGED ** (len(steps) / MOST_STEPS) * size
+            if (residual <= CONVERGED * size).all() or (len(steps) >= _PROMISING and is_late.all()):
+                break
             step, image = left.copy(), left + self._preconditioned(self._rest(left))
             for one, its in steps:
                 share = _inner(its, image)

@@ -85,6 +85,15 @@ def test_tells_which_frequencies_are_not_solved(monkeypatch: pytest.MonkeyPatch)
     assert np.abs((found - expected)[:, :, 1]).max() <= 1e-9 * np.abs(expected[:, :, 1]).max()
 
 
+def test_gives_up_early_where_nothing_converges(monkeypatch: pytest.MonkeyPatch) -> None:
+    steps: list[int] = []
+    rest = large_body._Columns._rest
+    monkeypatch.setattr(large_body._Columns, "_rest", lambda *args: steps.append(1) or rest(*args))
+    _, is_solved = Scene(remainder=20.0).solved(np.ones((3, N_F), dtype=bool))
+    assert not is_solved.any()
+    assert len(steps) < large_body.MOST_STEPS / 2
+
+
 def test_blocks_are_what_is_connected_without_the_large_body() -> None:
     several = [np.array(rows) for rows in ([0, 4], [2], [4, 6], [1, 3], [5, 3])]
     found = {tuple(block.tolist()) for block in large_body.blocks_of(several)}
