@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import Protocol, TypeVar, runtime_checkable
+from typing import NamedTuple, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -102,6 +102,30 @@ class Piecewise(Protocol):
 
     def pieces(self, points_m: Floats, forces_m: Floats, frequencies_hz: Floats) -> Iterator[tuple[slice, Complex]]:
         """Yield each part of the frequencies and the receptance there, see `ElasticBody.receptance`."""
+        ...
+
+
+class SeparatedReceptance(NamedTuple):
+    """Receptance of a body among n of its points, as sums of terms that depend on points or on frequencies only.
+
+        Y(x_i, x_j) = sum over modes of shapes_i shapes_j resonance(f)  +  sum over m of smooth_ijm between_m(f)
+
+    shapes : (n, n_modes); resonance : (n_modes, n_f), not 0; smooth : (n, n, n_smooth), symmetric, small; between :
+    (n_smooth, n_f).
+    """
+
+    shapes: Floats
+    resonance: Complex
+    smooth: Floats
+    between: Complex
+
+
+@runtime_checkable
+class Separable(Protocol):
+    """A body that returns its receptance among many points without summing it at any frequency."""
+
+    def separated(self, points_m: Floats, frequencies_hz: Floats) -> SeparatedReceptance | None:
+        """The receptance among points (n, 2) [m]; None if a part of the body is not separable."""
         ...
 
 

@@ -29,10 +29,11 @@ from scene2hap import (
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.bodies import many_joints
 from scene2hap.propagation.bodies.lattice_body import lattice_body
-from scene2hap.propagation.bodies.modal_body import modal_body
+from scene2hap.propagation.bodies.modal_body import ModalBody, modal_body
 from scene2hap.propagation.bodies.rigid import RigidMotion
-from scene2hap.propagation.coupled import coupling
+from scene2hap.propagation.coupled import coupling, elimination, large_body
 from scene2hap.propagation.coupled.coupling import Joint, couple
+from scene2hap.propagation.modal.plate_terms import ForcedPlate
 
 FLOOR = Plate(6.0, 5.0, 0.1, materials.lookup("wood"))
 F_HZ = np.geomspace(40.0, 200.0, 30)
@@ -72,6 +73,58 @@ def test_many_contacts_give_what_all_pairs_at_once_give(
         found, expected = (field.attenuation(object_id, TOUCHED_M) for field in (by_parts, at_once))
         np.testing.assert_allclose(found, expected, rtol=1e-11)
     assert by_parts.attenuation("floor", TOUCHED_M).all()
+
+
+def leaning(network: ContactNetwork) -> ContactNetwork:
+    """The same with a board that leans on the floor and pushes it along its plane."""
+    board = Contact("floor", "board", (5.0, 4.8, 0.0), normal=(0.6, 0.0, 0.8))
+    bodies = {**network.bodies, "board": Plate(0.8, 0.6, 0.02, materials.lookup("wood"))}
+    poses = {**network.poses, "board": Pose((4.8, 4.5, 0.0))}
+    return ContactNetwork(bodies, (*network.contacts, board), poses)
+
+
+@pytest.mark.parametrize(
+    ("scene", "bands"),
+    [(crates(100), AROUND), (crates(100), Bands((60.0, 65.0, 70.0))), (leaning(crates(100)), AROUND)],
+    ids=["around", "shared", "inclined"],
+)
+def test_a_body_with_hundreds_of_contacts_equals_lapack(
+    scene: ContactNetwork, bands: Bands, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sizes: list[int] = []
+    dense = elimination.dense
+    monkeypatch.setattr(elimination, "dense", lambda *args: sizes.append(len(args[2])) or dense(*args))
+    found = ModalPlate().prepare(scene, SOURCES, bands)
+    assert not sizes, "no full matrix is factored"
+    monkeypatch.setattr(large_body, "is_faster", lambda *args: False)
+    expected = ModalPlate().prepare(scene, SOURCES, bands)
+    assert sum(sizes) == len(expected.sampling.frequencies_hz)
+    for object_id in ("floor", "crate 3", "crate 7"):
+        one, other = (field.attenuation(object_id, TOUCHED_M) for field in (found, expected))
+        np.testing.assert_allclose(one, other, rtol=1e-9)
+        assert other.all()
+
+
+def test_points_that_stay_keep_their_terms_to_the_last_bit() -> None:
+    """Also if points before them come or go."""
+    points = np.random.default_rng(3).uniform((0.0, 0.0), (6.0, 5.0), (200, 2))
+    moved = np.concatenate([points[5:90] * 0.9, points[94:], points[:3]])
+    body, fresh = (ModalBody(FLOOR, 200.0, 0.01) for _ in range(2))
+    products: list[int] = []
+    beyond = ForcedPlate.beyond_modes
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ForcedPlate, "beyond_modes", lambda *args: products.append(1) or beyond(*args))
+        for now in (points, moved, points):
+            found, expected = (one.separated(now, F_HZ) for one in (body, ModalBody(FLOOR, 200.0, 0.01)))
+            np.testing.assert_array_equal(found.smooth, expected.smooth)
+            np.testing.assert_array_equal(found.shapes, expected.shapes)
+        one_moved = np.concatenate([points[:150], points[150:151] + 0.01, points[151:]])
+        fresh.separated(points, F_HZ)
+        products.clear()
+        fresh.separated(one_moved, F_HZ)
+        few = len(products)
+        ModalBody(FLOOR, 200.0, 0.01).separated(one_moved, F_HZ)
+    assert few < 0.4 * (len(products) - few)
 
 
 @pytest.mark.parametrize("body", [modal_body(FLOOR, 200.0, 0.01), lattice_body(FLOOR, 8, 200.0, 0.01)])

@@ -86,6 +86,14 @@ class Sampling:
         """Return a band of a source, both by their indices."""
         return self.bands[band if self.is_shared else source]
 
+    def wanted(self, sources: NDArray[np.intp]) -> NDArray[np.bool_]:
+        """Whether each frequency is in a band of each source (n_sources, n_frequencies), given by their indices."""
+        wanted = np.full((len(sources), len(self.frequencies_hz)), self.is_shared)
+        if not self.is_shared:
+            for own, source in zip(wanted, sources.tolist(), strict=True):
+                own[self.bands[source].at] = True
+        return wanted
+
     @cached_property
     def _side_by_side(self) -> tuple[list[int], Floats]:
         """Index at which each shared band begins, and the weights of all frequencies (n_frequencies, 1, 1)."""

@@ -32,6 +32,8 @@ from scene2hap.propagation.elastic_body import (
     ElasticBody,
     HasResponseBasis,
     ResponseBasis,
+    Separable,
+    SeparatedReceptance,
     SpatialBody,
     real_times,
 )
@@ -140,6 +142,20 @@ class InclinedBody(SpatialBody):
             if is_among:
                 answer[i + 1 :, i] = row[i + 1 :]
         return answer.transpose(2, 0, 1)
+
+    def separated(self, points_m: Floats, frequencies_hz: Floats) -> SeparatedReceptance | None:
+        """See `Separable`."""
+        rows, places, normal = _bending(points_m)
+        bent = self.bending.separated(places, frequencies_hz) if isinstance(self.bending, Separable) else None
+        if bent is None:
+            return None
+        n, (_, n_modes), n_smooth = len(points_m), bent.shapes.shape, bent.smooth.shape[2]
+        shapes, smooth = np.zeros((n, n_modes)), np.zeros((n, n, n_smooth))
+        shapes[rows] = normal[:, None] * bent.shapes
+        smooth[rows[:, None], rows] = np.multiply.outer(normal, normal)[..., None] * bent.smooth
+        moving = np.concatenate([shapes, self.motions.shapes(points_m)], axis=1)
+        resonance = np.concatenate([bent.resonance, self.yielding(frequencies_hz).T])
+        return SeparatedReceptance(moving, resonance, smooth, bent.between)
 
     def _strained(self, moved: Floats, pushed: Floats, frequencies_hz: Floats, *, is_among: bool) -> _Part:
         """The part of the motions that strain the plate. Ports along the normal have none."""

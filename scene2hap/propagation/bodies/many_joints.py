@@ -11,12 +11,18 @@ Letters: Y [m/N] receptance, phi shape of a mode, r_m shape of a smooth term, s,
 
 from __future__ import annotations
 
+from itertools import pairwise
+from zlib import crc32
+
 import numpy as np
 
 from scene2hap.common.arrays import Complex, Floats
 
 MOST_PAIRS = 16_384
 """Pairs of joints up to which a body sums the terms of all pairs at all frequencies at once, which is faster."""
+_PART = 16
+"""Mean number of points in a part of `parts_of`: products of smaller parts take longer, larger ones are computed again
+more often."""
 _ROWS = 128
 """Rows that are computed at once: the rest of a symmetric matrix is copied."""
 
@@ -26,9 +32,11 @@ def has_many(points_m: Floats) -> bool:
     return len(points_m) ** 2 > MOST_PAIRS
 
 
-def rows_at_once(n_points: int) -> int:
-    """Number of rows of which `MOST_PAIRS` are computed at once, at least 1."""
-    return max(1, MOST_PAIRS // n_points)
+def parts_of(points_m: Floats) -> list[slice]:
+    """Consecutive points (n, 2) in parts of some `_PART`. A part begins at points that depend on their coordinates
+    alone, so that a point that comes, goes or moves changes the parts around it, and no others."""
+    begins = [i for i, point in enumerate(points_m) if not i or crc32(point.tobytes()) % _PART == 0]
+    return [slice(*ends) for ends in pairwise([*begins, len(points_m)])]
 
 
 def among(shapes: Floats, smooth: Floats, spectrum: Complex) -> Complex:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from weakref import ref
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,10 +13,11 @@ from scene2hap.common.arrays import Complex, Floats
 from scene2hap.common.caches import ByteBoundedLru, cached_while_used
 from scene2hap.propagation.bands.octaves import OctaveSums
 from scene2hap.propagation.bodies.infinite_body import InfiniteBody
-from scene2hap.propagation.bodies.many_joints import among, has_many, rows_at_once
+from scene2hap.propagation.bodies.many_joints import among, has_many, parts_of
 from scene2hap.propagation.bodies.split_body import SplitBody
-from scene2hap.propagation.elastic_body import AnyFloat, mirrored
+from scene2hap.propagation.elastic_body import AnyFloat, SeparatedReceptance, mirrored
 from scene2hap.propagation.modal.modes import FINE, MARGIN, QUICK_BLOCK, Fineness, largest_block
+from scene2hap.propagation.modal.near_field import NearField
 from scene2hap.propagation.modal.plate_terms import N_NODES, ContractedShapes, ForcedPlate, PlateTerms
 from scene2hap.propagation.plate import Plate
 
@@ -67,6 +69,55 @@ class ModalBasis:
         return self.pushed.mixed(weights)
 
 
+@dataclass(frozen=True, eq=False)
+class TermsAmong:
+    """Terms of a plate among many points.
+
+    shapes : (n, n_modes); smooth : (n, n, N_NODES) terms that are no modes, symmetric; pushed : the plate under forces
+    at each part of the points; begins : index of each part by its points.
+    """
+
+    shapes: Floats
+    smooth: Floats
+    pushed: Sequence[ForcedPlate]
+    begins: Mapping[bytes, int]
+
+    @property
+    def nbytes(self) -> int:
+        """Memory [byte]."""
+        return self.shapes.nbytes + self.smooth.nbytes + sum(part.nbytes for part in self.pushed)
+
+    def joined(self, points_m: Floats) -> ForcedPlate:
+        """The plate under forces at all of the points."""
+        rest = np.concatenate([one.rest for one in self.pushed], axis=1)
+        near = NearField(self.pushed[0].plate.modes, points_m)
+        return replace(self.pushed[0], phi=self.shapes, rest=rest, near=near)
+
+    @classmethod
+    def of(cls, plate: PlateTerms, points_m: Floats, last: TermsAmong | None) -> TermsAmong:
+        """Compute the terms, with those of the parts that `last` has too. They are the same to the last bit: each
+        product is of two parts alone."""
+        n, parts = len(points_m), parts_of(points_m)
+        begins = {points_m[part].tobytes(): part.start for part in parts}
+        known = {} if last is None else dict(zip(last.begins, last.pushed, strict=True))
+        pushed = [
+            known.get(key) or plate.of_forces(points_m[part].copy()) for key, part in zip(begins, parts, strict=True)
+        ]
+        before = [-1 if last is None else last.begins.get(key, -1) for key in begins]
+        cosines, smooth = plate.cosines(points_m), np.empty((n, n, N_NODES))
+        for j, columns in enumerate(parts):
+            for i, rows in enumerate(parts[: j + 1]):
+                if last is not None and 0 <= before[i] <= before[j]:
+                    at, to = before[i], before[j]
+                    found = last.smooth[at : at + rows.stop - rows.start, to : to + columns.stop - columns.start]
+                else:
+                    found = pushed[j].beyond_modes(points_m[rows], cosines[rows])
+                    if i == j:
+                        found = (found + found.transpose(1, 0, 2)) / 2
+                smooth[rows, columns], smooth[columns, rows] = found, found.transpose(1, 0, 2)
+        return cls(np.concatenate([one.phi for one in pushed]), smooth, pushed, begins)
+
+
 class ModalBody:
     """An `ElasticBody` by modes, for frequencies up to `max_frequency_hz`."""
 
@@ -74,9 +125,10 @@ class ModalBody:
         self.plate = plate
         self.loss_factor = loss_factor
         self.terms: PlateTerms = PlateTerms(plate, max_frequency_hz, fineness)
-        self._at_forces = ByteBoundedLru(self.terms.of_forces)
+        self._at_forces = ByteBoundedLru(self._of_forces)
         self._among_forces = ByteBoundedLru(self._symmetric)
-        self._among_many = ByteBoundedLru(self._shapes_among, room=2)
+        self._among_many = ByteBoundedLru(self._terms_among, room=2)
+        self._last_among: Callable[[], TermsAmong | None] = lambda: None
         self._coupled = ByteBoundedLru(self._between, room=2)
         self._sums = ByteBoundedLru(self._sums_at, room=4)
 
@@ -90,10 +142,17 @@ class ModalBody:
         if points_m is not forces_m:
             return self._summed(self._at_forces(forces_m)(points_m), frequencies_hz)
         if has_many(points_m):
-            return among(*self._among_many(points_m), self.spectrum(frequencies_hz))
+            found = self._among_many(points_m)
+            return among(found.shapes, found.smooth, self.spectrum(frequencies_hz))
         if len(points_m) ** 2 * len(frequencies_hz) <= MOST_REMEMBERED:
             return self._coupled(points_m, frequencies_hz)
         return self._between(points_m, frequencies_hz)
+
+    def separated(self, points_m: Floats, frequencies_hz: Floats) -> SeparatedReceptance:
+        """See `Separable`."""
+        found, spectrum = self._among_many(points_m), self.spectrum(frequencies_hz)
+        n_modes = found.shapes.shape[1]
+        return SeparatedReceptance(found.shapes, spectrum[:n_modes], found.smooth, spectrum[n_modes:])
 
     def pieces(self, points_m: Floats, forces_m: Floats, frequencies_hz: Floats) -> Iterator[tuple[slice, Complex]]:
         """See `Piecewise`."""
@@ -128,15 +187,13 @@ class ModalBody:
         i, j = np.triu_indices(len(points_m))
         return (terms[i, j] + terms[j, i]) / 2  # of both, although only rounding differs: points have no order
 
-    def _shapes_among(self, points_m: Floats) -> tuple[Floats, Floats]:
-        """Shapes of the modes at points (n, n_modes), and of the other terms among them (n, n, N_NODES)."""
-        forced, n = self._at_forces(points_m), len(points_m)
-        rest, width = np.empty((n, n, N_NODES)), rows_at_once(n)
-        for begin in range(0, n, width):
-            rest[begin : begin + width] = forced.beyond_modes(points_m[begin : begin + width])
-        rest += rest.transpose(1, 0, 2).copy()
-        rest /= 2
-        return forced.phi, rest
+    def _of_forces(self, forces_m: Floats) -> ForcedPlate:
+        return self._among_many(forces_m).joined(forces_m) if has_many(forces_m) else self.terms.of_forces(forces_m)
+
+    def _terms_among(self, points_m: Floats) -> TermsAmong:
+        found = TermsAmong.of(self.terms, points_m, self._last_among())
+        self._last_among = ref(found)
+        return found
 
     def _damped(self, frequencies_hz: Floats) -> tuple[Complex, complex]:
         """q (n_frequencies,) [m^-4], and 1 / D_c [1/(N m)]."""

@@ -31,8 +31,9 @@ from scene2hap.common import checks
 from scene2hap.common.arrays import Complex, Floats
 from scene2hap.common.counted import counted
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.coupled.elimination import Element, inverse, solve
-from scene2hap.propagation.elastic_body import ElasticBody
+from scene2hap.propagation.coupled import large_body
+from scene2hap.propagation.coupled.elimination import Element, inverse, is_nearly_full, pattern_among, solve
+from scene2hap.propagation.elastic_body import ElasticBody, Separable
 
 AT_ONCE_BYTES = 256_000_000
 """Memory of the receptances of all bodies that are in memory at once. A furnished room needs less for all frequencies;
@@ -195,11 +196,12 @@ def couple(
     joints: Sequence[Joint],
     source_ids: Sequence[str],
     frequencies_hz: Floats,
+    wanted: NDArray[np.bool_] | None = None,
 ) -> JointForces:
     """Solve all joints together.
 
     Parameters: source_ids : bodies, each in turn with a free deflection of 1 at all of its joints; frequencies_hz :
-    (n_frequencies,) > 0 [Hz].
+    (n_frequencies,) > 0 [Hz]; wanted : (n_sources, n_frequencies), None for all: forces elsewhere may be 0.
     Raises: ModelDomainError: a joint ends at an unknown body, or has both ends at one body.
     """
     for joint in joints:
@@ -212,13 +214,46 @@ def couple(
     ends, n_f = ends_of(joints), len(frequencies_hz)
     free = _free_deflections(ends, len(joints), source_ids)
     forces = np.zeros((*free.shape, n_f), dtype=np.complex128)
-    whole = None
+    whole, left = None, np.arange(n_f)
     if free.size:
-        for part, system in systems(bodies, ends, joints, frequencies_hz):
-            forces[:, :, part] = system.forces(free)
+        _require_few(ends)
+        solved = _with_large_body(bodies, ends, joints, free, frequencies_hz, wanted)
+        if solved is not None:
+            forces, is_solved = solved
+            left = np.flatnonzero(~is_solved)
+        for part, system in systems(bodies, ends, joints, frequencies_hz[left]):
+            forces[:, :, left[part]] = system.forces(free)
             whole = system if part == slice(0, n_f) else None
     by_frequency = forces.transpose(2, 0, 1)
     return JointForces(bodies, tuple(joints), tuple(source_ids), frequencies_hz, by_frequency, ends, whole)
+
+
+def _with_large_body(
+    bodies: Mapping[str, ElasticBody],
+    ends: Mapping[str, JointEnds],
+    joints: Sequence[Joint],
+    free: Floats,
+    frequencies_hz: Floats,
+    wanted: NDArray[np.bool_] | None,
+) -> tuple[Complex, NDArray[np.bool_]] | None:
+    """See `large_body.solve`; None where that is not faster."""
+    large_id = max(ends, key=lambda key: len(ends[key].rows))
+    body, own = bodies[large_id], ends[large_id]
+    pattern = pattern_among([one.rows for one in ends.values()])
+    if not isinstance(body, Separable) or not is_nearly_full(pattern, free.shape[1], inverts=False):
+        return None
+    others = {key: one for key, one in ends.items() if key != large_id}
+    large = body.separated(own.points_m, frequencies_hz)
+    if large is None or not large_body.is_faster(large, [one.rows for one in others.values()]):
+        return None
+    elements = [
+        Element(one.rows, one.signs, bodies[key].receptance(one.points_m, one.points_m, frequencies_hz))
+        for key, one in others.items()
+    ]
+    if wanted is None:
+        wanted = np.ones((free.shape[1], len(frequencies_hz)), dtype=bool)
+    compliances = compliances_m_n(joints, frequencies_hz)
+    return large_body.solve(large, own.rows, own.signs, elements, compliances, free, wanted)
 
 
 def systems(
@@ -234,9 +269,7 @@ def systems(
     `AT_ONCE_BYTES`.
     Raises: ModelDomainError: a body has so many joints that `FEWEST_AT_ONCE` frequencies exceed `MOST_BYTES`.
     """
-    for object_id, own in ends.items():
-        among = f"the receptance among the {counted(len(own.rows), 'contact')} of object {object_id!r}"
-        require_memory(16 * FEWEST_AT_ONCE * len(own.rows) ** 2, among, "Leave objects out of the scene")
+    _require_few(ends)
     if at_once is None:
         at_once = AT_ONCE_BYTES // max(1, 16 * sum(len(own.rows) ** 2 for own in ends.values()))
     n_f, compliances = len(frequencies_hz), compliances_m_n(joints, frequencies_hz)
@@ -247,6 +280,12 @@ def systems(
         yield slice(begin, end), JointSystem(ends, receptances, compliances[:, begin:end])
         if end < n_f:
             receptances.clear()  # else those of two parts would be in memory
+
+
+def _require_few(ends: Mapping[str, JointEnds]) -> None:
+    for object_id, own in ends.items():
+        among = f"the receptance among the {counted(len(own.rows), 'contact')} of object {object_id!r}"
+        require_memory(16 * FEWEST_AT_ONCE * len(own.rows) ** 2, among, "Leave objects out of the scene")
 
 
 def require_memory(n_bytes: int, what: str, instead: str) -> None:

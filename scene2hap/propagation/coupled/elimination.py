@@ -16,7 +16,7 @@ Source: Takahashi, Fagan, Chin, Formation of a sparse bus impedance matrix (1973
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -58,8 +58,8 @@ def solve(elements: Sequence[Element], compliance: Complex, free: Floats) -> Com
 
     Every row 0..n-1 must belong to exactly two elements.
     """
-    diagonal = compliance + _slack(elements, compliance.shape)
-    pattern, n_f = _pattern(elements), compliance.shape[1]
+    diagonal = compliance + slack(elements, compliance.shape)
+    pattern, n_f = pattern_among([one.rows for one in elements]), compliance.shape[1]
     forces = np.empty((*free.shape, n_f), dtype=np.complex128)
     bad = np.arange(n_f)
     if not is_nearly_full(pattern, free.shape[1], inverts=False):
@@ -74,8 +74,8 @@ def inverse(
 ) -> tuple[Complex, dict[int, Complex]]:
     """Columns of A^-1 (n, n_columns, n_f), and A^-1 among the rows of each element in `numbers`, (n_f, n_own, n_own)
     each. For the other parameters see `solve`."""
-    diagonal = compliance + _slack(elements, compliance.shape)
-    pattern, (n, n_f), n_columns = _pattern(elements), compliance.shape, len(columns)
+    diagonal = compliance + slack(elements, compliance.shape)
+    pattern, (n, n_f), n_columns = pattern_among([one.rows for one in elements]), compliance.shape, len(columns)
     found = np.empty((n, n_columns, n_f), dtype=np.complex128)
     parts = {k: np.empty(elements[k].receptance.shape, dtype=np.complex128) for k in numbers}
     free = np.zeros((n, n_columns))
@@ -103,8 +103,9 @@ def is_nearly_full(pattern: Pattern, n_sources: int, *, inverts: bool) -> bool:
     return 64 * len(pattern.columns) > CACHE_BYTES and LAPACK_SPEED * sparse > full
 
 
-def _pattern(elements: Sequence[Element]) -> Pattern:
-    return pattern_of(tuple([tuple(element.rows.tolist()) for element in elements]))
+def pattern_among(rows: Iterable[NDArray[np.intp]]) -> Pattern:
+    """See `pattern_of`, for the rows of each element."""
+    return pattern_of(tuple([tuple(own.tolist()) for own in rows]))
 
 
 @compiled
@@ -139,11 +140,12 @@ def dense(
         yield few, system
 
 
-def _slack(elements: Sequence[Element], shape: tuple[int, ...]) -> Floats:
+def slack(elements: Sequence[Element], shape: tuple[int, ...]) -> Floats:
+    """Return `SLACK` of each row (n, n_f) [m/N]."""
     own = np.zeros(shape, dtype=np.complex128)
     for element in elements:
         own[element.rows] += np.diagonal(element.receptance, axis1=1, axis2=2).T
-    slack: Floats = np.abs(own)
-    slack *= SLACK
-    slack += 1e-200
-    return slack
+    added: Floats = np.abs(own)
+    added *= SLACK
+    added += 1e-200
+    return added

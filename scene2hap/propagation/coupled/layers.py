@@ -24,6 +24,7 @@ from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from operator import itemgetter
 
 import numpy as np
 
@@ -70,12 +71,14 @@ def pressed_through(
         least_n = _sagging_n(plate)
         if max(preloads_n[pair_of(key, other)] for other in others) >= least_n:
             layers[key], sagging_n[key] = plate, least_n
-    beds = {
-        (layer, under): bed
-        for layer in layers
-        for under in beside[layer]
-        if (bed := _Bed.of(network, layer, under, contacts[pair_of(layer, under)])) is not None
-    }
+    # By direction, since hundreds of objects may stand on one face of a layer, and none of them is below another.
+    beds: dict[str, dict[Vector, list[tuple[str, _Bed]]]] = {}
+    for layer in layers:
+        facing = beds.setdefault(layer, {})
+        for under in sorted(beside[layer]):
+            bed = _Bed.of(network, layer, under, contacts[pair_of(layer, under)])
+            if bed is not None:
+                facing.setdefault(bed.away, []).append((under, bed))
     waiting = deque(
         (by, layer, contact, preloads_n[pair_of(by, layer)])
         for layer in sorted(layers)
@@ -87,10 +90,13 @@ def pressed_through(
     seen: set[tuple[Pair, Vector]] = set()
     while waiting:
         by, layer, contact, force_n = waiting.popleft()
-        for under in sorted(beside[layer]):
-            bed, pair = beds.get((layer, under)), pair_of(layer, under)
-            point_m = bed.below(contact) if bed is not None and under != by else None
-            if bed is None or point_m is None or (pair, point_m) in seen:
+        towards = _outwards(layer, contact)
+        if towards is None:
+            continue
+        opposite = [one for away, several in beds[layer].items() if dot(towards, away) <= -_OPPOSITE for one in several]
+        for under, bed in sorted(opposite, key=itemgetter(0)):
+            pair, point_m = pair_of(layer, under), bed.below(contact.point_m)
+            if under == by or point_m is None or (pair, point_m) in seen:
                 continue
             seen.add((pair, point_m))
             normal = _turned(bed.away, pair[0] != layer)
@@ -137,12 +143,11 @@ def _sagging_n(plate: Plate) -> float:
 class _Bed:
     """Where a layer lies on an object: the area between its contacts, in the frame of the layer.
 
-    Parameters: layer_id; pose : of the layer; away : the normal out of the layer; low_m, high_m : corners of the area;
+    Parameters: pose : of the layer; away : the normal out of the layer; low_m, high_m : corners of the area;
     height_m : of the contacts; most_m : the farthest that a pressed point may be from the mid-plane; facing : pose and
     size of a plate that must be there, None for a compact object.
     """
 
-    layer_id: str
     pose: Pose
     away: Vector
     low_m: tuple[float, float]
@@ -173,14 +178,12 @@ class _Bed:
         (x0, y0, _), (x1, y1, _) = own.min(axis=0).tolist(), own.max(axis=0).tolist()
         slack = _SLACK * max(body.extent_m)
         low, high = (x0 - slack, y0 - slack), (x1 + slack, y1 + slack)
-        return cls(layer, pose, away, low, high, float(own[:, 2].mean()), body.thickness_m, facing)
+        return cls(pose, away, low, high, float(own[:, 2].mean()), body.thickness_m, facing)
 
-    def below(self, pressing: Contact) -> Vector | None:
-        """Return where the layer is pressed onto the object; None if it is not."""
-        towards = _outwards(self.layer_id, pressing)
-        if towards is None or dot(towards, self.away) > -_OPPOSITE:
-            return None
-        x, y, z = self.pose.to_own([pressing.point_m])[0].tolist()
+    def below(self, pressed_m: Vector) -> Vector | None:
+        """Return where a layer that is pressed at a point of its other face is pressed onto the object; None if it is
+        not."""
+        x, y, z = self.pose.to_own([pressed_m])[0].tolist()
         is_around = self.low_m[0] <= x <= self.high_m[0] and self.low_m[1] <= y <= self.high_m[1]
         if abs(z) > self.most_m or not is_around:
             return None

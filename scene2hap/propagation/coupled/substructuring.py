@@ -204,9 +204,9 @@ def _solved(
     hand: Hand | None,
 ) -> dict[str, SolvedObject]:
     _require_memory(joints, sources, sampling, hand)
-    solved = couple(bodies, joints, sources, sampling.frequencies_hz)
-    forces = np.ascontiguousarray(solved.forces.transpose(1, 2, 0))
     columns = np.array([source_ids.index(x) for x in sources])
+    solved = couple(bodies, joints, sources, sampling.frequencies_hz, sampling.wanted(columns))
+    forces = np.ascontiguousarray(solved.forces.transpose(1, 2, 0))
     if sampling.is_single:
         forces = np.take_along_axis(forces, columns[None, :, None], axis=2)[:, :, 0]
     loads = {x: None if hand is None else HandLoad(hand, x, solved) for x in solved.ends}

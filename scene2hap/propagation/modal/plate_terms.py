@@ -56,14 +56,12 @@ class ForcedPlate:
         cosines = self.plate.cosines(points_m)
         terms = np.empty((n_points, n_forces, n_modes + N_NODES))
         np.multiply((self.plate.first(cosines) @ self.modes)[:, None], self.phi, out=terms[:, :, :n_modes])
-        terms[:, :, n_modes:] = self._rest(points_m, cosines)
+        terms[:, :, n_modes:] = self.beyond_modes(points_m, cosines)
         return terms
 
-    def beyond_modes(self, points_m: Floats) -> Floats:
-        """The shape of the terms that are no modes, per force (n_points, n_forces, N_NODES)."""
-        return self._rest(points_m, self.plate.cosines(points_m))
-
-    def _rest(self, points_m: Floats, cosines: Floats) -> Floats:
+    def beyond_modes(self, points_m: Floats, cosines: Floats) -> Floats:
+        """The shape of the terms that are no modes, per force (n_points, n_forces, N_NODES), from the plate's `cosines`
+        at the points."""
         rest = (cosines @ self.rest).reshape(len(points_m), len(self.phi), N_NODES)
         rest += self.near(points_m, self.k2)
         return rest
