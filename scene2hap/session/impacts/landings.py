@@ -94,13 +94,11 @@ class Landings:
         tracks = motion.tracks
         # The objects were still at rest at the last look, unless that is long ago: then the time of a step is unknown.
         since_s = self._looked_s if 0 < time_s - self._looked_s <= LONGEST_GAP_S else time_s - self._period_s
-        for object_id, moves_to in moved.items():
-            track = tracks.get(object_id)
-            if track is not None:
-                if near := beside.get(object_id):
-                    self._near.setdefault(object_id, {}).update(near)
-            elif len(tracks) < MOST_MOVING and object_id in self._graph:
-                pose = self._graph.pose(object_id)
+        for object_id in moved.keys() & tracks.keys() & beside.keys():
+            self._near.setdefault(object_id, {}).update(beside[object_id])
+        for object_id in [x for x in moved if x not in tracks]:
+            if len(tracks) < MOST_MOVING and object_id in self._graph:
+                pose, moves_to = self._graph.pose(object_id), moved[object_id]
                 # Some games give the poses of all objects in every frame. The graph refuses other types than poses.
                 if isinstance(moves_to, Pose) and pose != moves_to:
                     own_m = self._state.middle_m(object_id)
