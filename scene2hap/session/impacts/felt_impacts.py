@@ -276,10 +276,10 @@ class Impacts:
         is_whole = actuator.min_frequency_hz <= low_hz and actuator.max_frequency_hz >= high_hz
         if profile is not None or not is_whole or not is_flat(actuator):
             return PEAK
-        accelerations = burst.accelerations_m_s2 * (burst.frequencies_hz >= low_hz)
-        return np.minimum(
-            PEAK, PEAK / LEAST_SUM * self._strength(burst) / burst.accelerations_m_s2.max() * accelerations
-        )
+        accelerations = burst.accelerations_m_s2
+        strongest = PEAK / LEAST_SUM * self._strength(burst) / accelerations.max()
+        most: Floats = np.minimum(PEAK, strongest * (accelerations * (burst.frequencies_hz >= low_hz)))
+        return most
 
     def _strength(self, burst: Burst) -> float:
         """Level of a burst relative to that of full strength [-]."""
