@@ -37,6 +37,10 @@ _FIRST_S, _FIRST_CYCLE_S = 0.06, 0.04
 """Time in which the peak of a sum is searched first, and end of the longest first cycle of a wave (30 Hz, with its
 attack) [s]."""
 
+LEAST_SUM = 0.5
+"""Least peak of a sum of waves with positive weights, relative to the largest weight [-]. They begin in phase: the
+least of 6000 random sums had 0.69."""
+
 
 @lru_cache(maxsize=256)
 def wave_of(frequency_hz: float, decay_s: float, sample_rate_hz: int) -> Samples:

@@ -148,9 +148,8 @@ def own_middle_m(item: SceneObject) -> Vector:
 
 def own_half_m(item: SceneObject) -> Vector:
     """Half the sides of the box around an object along the axes of its own frame [m]."""
-    low, high = item.geometry.mesh.bounds_m
-    x, y, z = ((high - low) / 2).tolist()
-    return x, y, z
+    (a, b, c), (d, e, f) = item.geometry.mesh.bounds_m.tolist()
+    return (d - a) / 2, (e - b) / 2, (f - c) / 2
 
 
 @lru_cache(maxsize=4096)

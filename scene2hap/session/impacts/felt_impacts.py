@@ -25,7 +25,7 @@ from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import clear_attributes
 from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.live import PointField, TouchedPoint
-from scene2hap.render.bursts import Samples, peak_of, wave_of
+from scene2hap.render.bursts import LEAST_SUM, Samples, peak_of, wave_of
 from scene2hap.scene.pose import Pose
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
@@ -194,6 +194,8 @@ class Impacts:
 
     def _play(self, impact: Impact, burst: Burst, felt: Felt) -> None:
         at_frame, f, profile = impact.at_sample, burst.frequencies_hz, self._profile
+        most = self._most(burst, profile)
+        # XX
         # A hand may be removed before a worker has the gains, and has another output if it is added again.
         outputs = self._playback.outputs
         touched: dict[str, list[TouchedPoint]] = {
@@ -203,7 +205,7 @@ class Impacts:
         def started(gains: Floats, begin: int, among: Collection[str]) -> dict[str, float]:
             """Start the burst, in any thread; return the largest sample at each hand that feels it."""
             # Most impacts of a busy scene are too far from every hand.
-            if not len(gains) or gains.max() * PEAK < LEAST_GAIN:
+            if not len(gains) or (gains * most).max() < LEAST_GAIN:
                 return {}
             waves, levels = self._levels(burst, [*among], profile)
             weights = levels * self._capped(gains)
@@ -268,6 +270,21 @@ class Impacts:
             else:
                 self._record(impact, felt)
 
+    def _most(self, burst: Burst, profile: UserProfile | None) -> Floats | float:
+        """Upper bound of `_levels` [-], for each sine (n,) if the actuator plays all of them equally well."""
+        actuator, (low_hz, high_hz) = self._config.actuator, TACTILE_RANGE_HZ
+        is_whole = actuator.min_frequency_hz <= low_hz and actuator.max_frequency_hz >= high_hz
+        if profile is not None or not is_whole or not is_flat(actuator):
+            return PEAK
+        accelerations = burst.accelerations_m_s2
+        strongest = PEAK / LEAST_SUM * self._strength(burst) / accelerations.max()
+        most: Floats = np.minimum(PEAK, strongest * (accelerations * (burst.frequencies_hz >= low_hz)))
+        return most
+
+    def _strength(self, burst: Burst) -> float:
+        """Level of a burst relative to that of full strength [-]."""
+        return min(1.0, math.sqrt(burst.accelerations_m_s2.sum() / LOUDEST_M_S2)) * self._level.factor
+
     def _levels(self, burst: Burst, hands: list[str], profile: UserProfile | None) -> tuple[list[Samples], Floats]:
         """Wave of each sine, and its amplitude (n_hands, n) [-] at each of these hands if it touched the struck point.
 
@@ -285,7 +302,7 @@ class Impacts:
         # Too slow to be felt as vibration, wherever it is played.
         drives[f < TACTILE_RANGE_HZ[0]] = 0.0
         # Applied last, so that an actuator's bounds take the same from strong and weak impacts.
-        drives *= min(1.0, math.sqrt(accelerations.sum() / LOUDEST_M_S2)) * self._level.factor
+        drives *= self._strength(burst)
         if profile is None:
             return waves, drives[None].repeat(len(hands), axis=0)
         return waves, drives * [10 ** (profile.level_db(hand, actuator.name, played_hz) / 20) for hand in hands]

@@ -23,11 +23,16 @@ from scene2hap.scene.pose import Pose
 from scene2hap.session.impacts.approaches import NO_JUNCTIONS, Approach, Approaches
 from scene2hap.session.impacts.closing_speed import ClosingSpeed
 from scene2hap.session.impacts.motion_track import (
+    ABRUPT,
+    CHANGED,
+    HEAD_ON,
+    LEAST_CHANGE,
     LEAST_TRAVEL_M,
     LEFT,
     LONGEST_GAP_S,
-    MOST_STEPS,
+    NO_STEP,
     STILL,
+    SUDDEN,
     MotionTrack,
 )
 from scene2hap.session.impacts.relative_motion import RelativeMotion
@@ -38,8 +43,6 @@ LEAST_SPEED_M_S = 0.1
 """A cup put down more slowly is as good as not felt, and trackers shake as fast."""
 FASTEST_M_S = 10.0
 """A faster motion is no fall (5 m): the game has moved the object elsewhere."""
-HEAD_ON = 0.5
-"""Smallest share of the travel that is along the contact normal: an object that slides does not land."""
 ROLLS = 0.25
 """Smallest share of an object's middle in the approach of its part at the contact: the middle of a rolling object does
 not approach the floor."""
@@ -49,9 +52,6 @@ SHORTEST_S, MOST_UPDATES = 0.0045, 16
 """Shortest time from one step to the next, and most updates in it. A game may update after each step of its physics: a
 contact of an engine is soft, so that at 500 Hz an object takes several steps to stop. The updates at one time of the
 clock are one step too, unless it stands still."""
-_SUDDEN = ((1 - LEFT) * HEAD_ON) ** 2
-_LEAST_CHANGE = _SUDDEN * (LEAST_TRAVEL_M / MOST_STEPS) ** 2
-"""Square of the smallest change of a step at a landing [m2]: the steps of a fall are not shorter."""
 
 
 class Landing(NamedTuple):
@@ -94,13 +94,11 @@ class Landings:
         tracks = motion.tracks
         # The objects were still at rest at the last look, unless that is long ago: then the time of a step is unknown.
         since_s = self._looked_s if 0 < time_s - self._looked_s <= LONGEST_GAP_S else time_s - self._period_s
-        for object_id, moves_to in moved.items():
-            track = tracks.get(object_id)
-            if track is not None:
-                if near := beside.get(object_id):
-                    self._near.setdefault(object_id, {}).update(near)
-            elif len(tracks) < MOST_MOVING and object_id in self._graph:
-                pose = self._graph.pose(object_id)
+        for object_id in moved.keys() & tracks.keys() & beside.keys():
+            self._near.setdefault(object_id, {}).update(beside[object_id])
+        for object_id in [x for x in moved if x not in tracks]:
+            if len(tracks) < MOST_MOVING and object_id in self._graph:
+                pose, moves_to = self._graph.pose(object_id), moved[object_id]
                 # Some games give the poses of all objects in every frame. The graph refuses other types than poses.
                 if isinstance(moves_to, Pose) and pose != moves_to:
                     own_m = self._state.middle_m(object_id)
@@ -132,23 +130,20 @@ class Landings:
     def _look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
         self._motion.n_updates = now = self._motion.n_updates + 1
         tracks = self._motion.tracks
-        moving: list[tuple[str, MotionTrack, Pose, tuple[Vector, Vector]]] = []
+        moving: list[MotionTrack] = []
         stopped: list[str] = []
         changed: list[str] = []
         at_rest: list[str] = []
         beside = self._graph.beside  # an object without contacts has not landed
         for object_id, track in tracks.items():
-            pose = moved.get(object_id)
-            step = track.step_to(pose)
-            if pose is not None and step is not None:
-                moving.append((object_id, track, pose, step))
+            change = track.look(moved.get(object_id))
+            if change != NO_STEP:
+                moving.append(track)
                 # Few objects pass these checks, which run for all moved ones in every frame.
-                before = track.step_m
-                change = _change(step[0], before)
                 if (
-                    change >= _LEAST_CHANGE
+                    change >= CHANGED
                     and (object_id in beside or object_id in self._near)
-                    and (change >= _SUDDEN * dot(before, before) or not tracks.keys().isdisjoint(self._met(object_id)))
+                    and (change == ABRUPT or not tracks.keys().isdisjoint(self._met(object_id)))
                 ):
                     changed.append(object_id)
             elif (
@@ -159,12 +154,10 @@ class Landings:
                 stopped.append(object_id)
             elif track.is_at_rest(now):
                 at_rest.append(object_id)
-        if changed:
-            steps_m = {object_id: step_m for object_id, _, _, (step_m, _) in moving}
-            stopped += [x for x in changed if tracks[x].is_falling and self._is_sudden(x, steps_m)]
+        stopped += [x for x in changed if tracks[x].is_falling and self._is_sudden(x)]
         found = [one for object_id in stopped for one in self._landing(object_id, tracks[object_id], time_s)]
-        for _, track, pose, (step_m, middle_m) in moving:
-            track.follow(now, time_s, pose, step_m, middle_m)
+        for track in moving:
+            track.follow(now, time_s)
         for object_id in at_rest:
             del tracks[object_id]
         if not found:
@@ -185,22 +178,21 @@ class Landings:
             return beside
         return {**beside, **{x: near[x] for x in near if x not in beside}}
 
-    def _is_sudden(self, object_id: str, steps_m: Mapping[str, Vector]) -> bool:
-        """Whether a fall changes abruptly with this step, relative to a neighbour: both may be in a vehicle.
-
-        Parameters: steps_m : of all objects that moved in this update.
-        """
+    def _is_sudden(self, object_id: str) -> bool:
+        """Whether a fall changes abruptly with this step, relative to a neighbour: both may be in a vehicle."""
         track = self._motion.tracks[object_id]
         beside = self._graph.beside.get(object_id, NO_JUNCTIONS)
         for other in self._met(object_id):
-            theirs, their_m = self._motion.tracks.get(other), STILL
-            if theirs is not None and theirs.steps[-1][0] == track.steps[-1][0]:
-                their_m = theirs.step_m
-            now = difference(steps_m[object_id], steps_m.get(other, STILL))
-            before = difference(track.step_m, their_m)
+            theirs, their_m, their_next_m = self._motion.tracks.get(other), STILL, STILL
+            if theirs is not None:
+                their_next_m = theirs.next_m
+                if theirs.steps[-1][0] == track.steps[-1][0]:
+                    their_m = theirs.step_m
+            now, before = difference(track.next_m, their_next_m), difference(track.step_m, their_m)
+            change = difference(now, before)
             # Without a contact now, only an object that turned back may have met the other one.
-            if (other in beside or dot(now, before) < 0) and _change(now, before) >= max(
-                _LEAST_CHANGE, _SUDDEN * dot(before, before)
+            if (other in beside or dot(now, before) < 0) and dot(change, change) >= max(
+                LEAST_CHANGE, SUDDEN * dot(before, before)
             ):
                 return True
         return False
@@ -255,10 +247,3 @@ class Landings:
                     speed = self._closing.speed(object_id, other, point, normal, runs, onward, time_s)
                     best, most_m = Landing(object_id, other, point, speed), closing
         return best
-
-
-def _change(one: Vector, other: Vector) -> float:
-    """Square of the distance of two vectors."""
-    (x, y, z), (u, v, w) = one, other
-    x, y, z = x - u, y - v, z - w
-    return x * x + y * y + z * z

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 
+from scene2hap.compiled import compiled
 from scene2hap.scene.geometry import Vector, dot
 from scene2hap.scene.pose import Pose, in_world
 
@@ -33,65 +34,145 @@ JUMP, JUMP_M_S2 = 10.0, 30.0
 """A step that is so many times as long as the one before, by more than such an acceleration, or as the one after, is a
 jump: a teleport between the trembling of a tracker. A fall in two or three frames also has steps of very unequal
 length, but by gravity alone; this is three times gravity, since clocks of games are uneven."""
+HEAD_ON = 0.5
+"""Smallest share of the travel that is along the contact normal: an object that slides does not land."""
+SUDDEN = ((1 - LEFT) * HEAD_ON) ** 2
+LEAST_CHANGE = SUDDEN * (LEAST_TRAVEL_M / MOST_STEPS) ** 2
+"""Square of the smallest change of a step at a landing: as a share of the step before, and [m2], since the steps of a
+fall are not shorter."""
+NO_STEP, STEADY, CHANGED, ABRUPT = range(4)
+"""How a step differs from the one before: there is none, by less than at a landing, by more, by more of its share."""
 
 STILL: Vector = (0.0, 0.0, 0.0)
 """The step of an object that does not move [m]."""
 
 
-class MotionTrack:
+@compiled
+class Motion:
     """The latest steps of an object, its last step, and the start of its present motion in one direction.
 
-    pose : the latest; middle_m : the middle of the box at this pose, in the world [m]; own_m : the same in the object's
-    own frame [m]; steps : number of the update, time [s] and pose of each step; gap : updates from one step to the
-    next, the longest of late; far_m2 : square of the largest distance from the place where the present motion began
-    [m2]; stopped_m : the last step before a landing that no further step confirmed, None if one
-    did; goes_on : the object did not land then, but paused.
+    steps : number of the update, time [s] and pose of each step; pose : the latest; own_m : the middle of the box in
+    the object's own frame [m]; step_m, next_m : the last step, and the one of `look`, which is not followed yet [m];
+    since, n_steps : update in which the present motion began, and its steps since; far_m2 : square of the largest
+    distance from the place where it began [m2]; gap : updates from one step to the next, the longest of late; goes_on :
+    the object did not land when it seemed to, but paused.
     """
 
     __slots__ = (
+        "_middle_m",
+        "_next",
+        "_origin_m",
+        "_stopped_m",
         "far_m2",
         "gap",
         "goes_on",
-        "middle_m",
         "n_steps",
-        "origin_m",
+        "next_m",
         "own_m",
         "pose",
         "since",
         "step_m",
         "steps",
-        "stopped_m",
     )
 
     def __init__(self, update: int, time_s: float, pose: Pose, own_m: Vector) -> None:
         self.steps: list[tuple[int, float, Pose]] = [(update, time_s, pose)]
         self.pose: Pose = pose
         self.own_m: Vector = own_m
-        self.middle_m: Vector = in_world(own_m, pose)
         self.gap: float = 1.0
         self.goes_on: bool = False
-        self.stopped_m: Vector | None = None
+        self.next_m: Vector = STILL
+        self._middle_m = in_world(own_m, pose)
+        # The last step before a landing that no further step confirmed, None if one did.
+        self._stopped_m: Vector | None = None
         self.turn(update)
 
     def turn(self, update: int) -> None:
         """Begin a motion in another direction."""
         self.since: int = update
         self.n_steps: int = 0
-        self.origin_m: Vector = self.middle_m
         self.far_m2: float = 0.0
         self.step_m: Vector = STILL
+        self._origin_m = self._middle_m
 
     def land(self, update: int) -> None:
         """Begin another motion after a landing, which the last step confirms or a missing one."""
         stopped_m = None if self.steps[-1][0] == update else self.step_m
         self.turn(update)
-        self.stopped_m = stopped_m
+        self._stopped_m = stopped_m
 
     def meet(self, update: int) -> None:
         """Begin another motion after another object landed on this one, which may go on."""
         step_m = self.step_m
         self.turn(update)
         self.step_m = step_m
+
+    def look(self, pose: Pose | None) -> int:
+        """Look at the step to another pose, which `follow` then adds. Returns how it differs from the last step."""
+        self.next_m = STILL
+        if pose is None:
+            return NO_STEP
+        before, (a, b, c), (u, v, w) = self.pose, self._middle_m, self.step_m
+        if pose.rotation_xyzw != before.rotation_xyzw:
+            x, y, z = middle_m = in_world(self.own_m, pose)
+            x, y, z = x - a, y - b, z - c
+        else:
+            (x, y, z), (d, e, f) = pose.position_m, before.position_m
+            x, y, z = x - d, y - e, z - f
+            if not (x or y or z):
+                return NO_STEP
+            middle_m = (a + x, b + y, c + z)
+        self.next_m, self._next = (x, y, z), (pose, middle_m)
+        x, y, z = x - u, y - v, z - w
+        change = x * x + y * y + z * z
+        if change < LEAST_CHANGE:
+            return STEADY
+        return ABRUPT if change >= SUDDEN * (u * u + v * v + w * w) else CHANGED
+
+    def follow(self, update: int, time_s: float) -> None:
+        """Add the step of `look`."""
+        step_m, (pose, middle_m) = self.next_m, self._next
+        last, last_s, _ = self.steps[-1]
+        waited = update - last
+        if waited > 1 and time_s - last_s > LONGEST_GAP_S:
+            self.turn(last)
+            self.gap, self.goes_on = 1.0, False
+        else:
+            (x, y, z), (u, v, w) = step_m, self.step_m
+            onward, before = x * u + y * v + z * w, u * u + v * v + w * w
+            gap = self.gap - GAP_DECAYS
+            if LEFT * before < onward < before / LEFT:
+                gap = min(max(gap, waited), UNEVEN * waited)
+            self.gap = gap if gap > 1.0 else 1.0
+            here = x * x + y * y + z * z
+            jumps = here > JUMP * JUMP * before and self._jumps(here, before, time_s - last_s)
+            jumped = self.n_steps == 1 and JUMP * onward < before
+            if onward <= 0 or jumps or jumped:
+                stopped_m = self._stopped_m
+                self.turn(last)
+                self.goes_on = stopped_m is not None and dot(step_m, stopped_m) > LEFT * dot(stopped_m, stopped_m)
+        self._stopped_m = None
+        self.pose, self._middle_m, self.step_m = pose, middle_m, step_m
+        self.n_steps += 1
+        (x, y, z), (u, v, w) = middle_m, self._origin_m
+        x, y, z = x - u, y - v, z - w
+        self.far_m2 = max(self.far_m2, x * x + y * y + z * z)
+        self.steps.append((update, time_s, pose))
+        if len(self.steps) > 4 * MOST_STEPS:
+            del self.steps[: -2 * MOST_STEPS]
+
+    def _jumps(self, here: float, before: float, lasts_s: float) -> bool:
+        """Whether a step is a jump, by its square, that of the step before [m2] and its duration."""
+        lasted_s = self.steps[-1][1] - self.steps[-2][1] if len(self.steps) > 1 else 0.0
+        longer = JUMP * max(1.0, lasts_s / lasted_s) if lasted_s > 0 else JUMP
+        jump_m = JUMP_M_S2 * lasts_s * lasts_s
+        return here > longer * longer * before and here > jump_m * jump_m > 0
+
+
+class MotionTrack(Motion):
+    """The motion of one object, and its steps in a time."""
+
+    __slots__ = ()
 
     @property
     def is_falling(self) -> bool:
@@ -114,54 +195,6 @@ class MotionTrack:
     def is_at_rest(self, update: int) -> bool:
         """Whether the motion has ended: no further step can belong to it."""
         return update - self.steps[-1][0] > MOST_GAP
-
-    def step_to(self, pose: Pose | None) -> tuple[Vector, Vector] | None:
-        """Return the step to another pose, and the middle there [m]; None without a motion."""
-        if pose is None:
-            return None
-        before, (a, b, c) = self.pose, self.middle_m
-        if pose.rotation_xyzw != before.rotation_xyzw:
-            x, y, z = middle_m = in_world(self.own_m, pose)
-            return (x - a, y - b, z - c), middle_m
-        (x, y, z), (u, v, w) = pose.position_m, before.position_m
-        x, y, z = x - u, y - v, z - w
-        return ((x, y, z), (a + x, b + y, c + z)) if x or y or z else None
-
-    def follow(self, update: int, time_s: float, pose: Pose, step_m: Vector, middle_m: Vector) -> None:
-        """Add a step of `step_to`."""
-        last, last_s, _ = self.steps[-1]
-        waited = update - last
-        if waited > 1 and time_s - last_s > LONGEST_GAP_S:
-            self.turn(last)
-            self.gap, self.goes_on = 1.0, False
-        else:
-            (x, y, z), (u, v, w) = step_m, self.step_m
-            onward, before = x * u + y * v + z * w, u * u + v * v + w * w
-            gap = self.gap - GAP_DECAYS
-            if LEFT * before < onward < before / LEFT:
-                gap = min(max(gap, waited), UNEVEN * waited)
-            self.gap = gap if gap > 1.0 else 1.0
-            here = x * x + y * y + z * z
-            jumps = here > JUMP**2 * before and self._jumps(here, before, time_s - last_s)
-            jumped = self.n_steps == 1 and JUMP * onward < before
-            if onward <= 0 or jumps or jumped:
-                stopped_m = self.stopped_m
-                self.turn(last)
-                self.goes_on = stopped_m is not None and dot(step_m, stopped_m) > LEFT * dot(stopped_m, stopped_m)
-        self.stopped_m = None
-        self.pose, self.middle_m, self.step_m = pose, middle_m, step_m
-        self.n_steps += 1
-        (x, y, z), (u, v, w) = middle_m, self.origin_m
-        self.far_m2 = max(self.far_m2, (x - u) ** 2 + (y - v) ** 2 + (z - w) ** 2)
-        self.steps.append((update, time_s, pose))
-        if len(self.steps) > 4 * MOST_STEPS:
-            del self.steps[: -2 * MOST_STEPS]
-
-    def _jumps(self, here: float, before: float, lasts_s: float) -> bool:
-        """Whether a step is a jump, by its square, that of the step before [m2] and its duration."""
-        lasted_s = self.steps[-1][1] - self.steps[-2][1] if len(self.steps) > 1 else 0.0
-        longer = max(1.0, lasts_s / lasted_s) if lasted_s > 0 else 1.0
-        return here > (JUMP * longer) ** 2 * before and here > (JUMP_M_S2 * lasts_s**2) ** 2 > 0
 
     def run(self, n_without: int = 0, window_s: float = WINDOW_S, most: int = MOST_STEPS) -> list[tuple[int, float]]:
         """Return the numbers and times [s] of the latest steps in one direction, at least two, without the last few."""

@@ -9,7 +9,7 @@ import numpy as np
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.scene.geometry import Vector, difference, dot
 from scene2hap.scene.pose import in_own, in_world
-from scene2hap.session.impacts.motion_track import STILL, MotionTrack
+from scene2hap.session.impacts.motion_track import MotionTrack
 from scene2hap.session.impacts.slams import RelativePoses
 
 
@@ -27,9 +27,8 @@ class RelativeMotion:
 
     def nearing_m(self, object_id: str, other: str, point_m: Vector, since: int, until: int) -> Vector:
         """Return the travel of a point of an object between two updates, relative to another object."""
-        return difference(
-            self._travel_m(object_id, point_m, since, until), self._travel_m(other, point_m, since, until)
-        )
+        came_m = self._travel_m(object_id, point_m, since, until)
+        return difference(came_m, self._travel_m(other, point_m, since, until)) if other in self.tracks else came_m
 
     def middle_path_m(
         self, object_id: str, other: str, point_m: Vector, normal: Vector, since: int, until: int
@@ -71,10 +70,8 @@ class RelativeMotion:
         return [(track.pose_at(x), theirs.pose_at(x) if theirs is not None else its) for x in updates]
 
     def _travel_m(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
-        """Return the travel of a point of an object between two updates."""
-        track, pose = self.tracks.get(object_id), self._graph.pose(object_id)
-        if track is None:
-            return STILL
+        """Return the travel of a point of an object with a track between two updates."""
+        track, pose = self.tracks[object_id], self._graph.pose(object_id)
         begin, end = track.pose_at(since), pose if until >= self.n_updates else track.pose_at(until)
         if begin.rotation_xyzw == end.rotation_xyzw == pose.rotation_xyzw:
             return difference(end.position_m, begin.position_m)

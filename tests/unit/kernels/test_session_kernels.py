@@ -8,6 +8,7 @@ import numpy as np
 from hypothesis import given, strategies as st
 
 from kernels import both, seeds, steady
+from scene2hap import Pose
 
 
 @steady
@@ -61,3 +62,35 @@ def test_kernels_answer_alike_from_the_last_field(seed: int, n: int, n_theirs: i
     )
     assert told.shape == (n, 4, 3)
     np.testing.assert_array_equal(compiled, told)
+
+
+@steady
+@given(seed=seeds, turns=st.booleans(), is_aside=st.booleans())
+def test_kernels_follow_a_motion_alike(seed: int, turns: bool, is_aside: bool) -> None:
+    rng = np.random.default_rng(seed)
+    own_m = (0.1, -0.2, 0.05) if is_aside else (0.0, 0.0, 0.0)
+    plain, twin = (kind(0, 0.0, Pose((1.0, 2.0, 3.0)), own_m) for kind in both("session.impacts.motion_track.Motion"))
+    time_s, at_m, rotation, step_m = 0.0, np.array([1.0, 2.0, 3.0]), (0.0, 0.0, 0.0, 1.0), np.zeros(3)
+    for update in range(1, 80):
+        time_s += rng.choice([0.0, 1 / 90, 1 / 30, 0.1], p=[0.05, 0.7, 0.2, 0.05])
+        # Steps go on, fall, stop, turn back, or jump.
+        step_m = rng.choice([1.0, 1.0, 0.2, 0.0, -0.6, 20.0]) * step_m + rng.choice([0.0, 0.001, 0.01]) * rng.normal(
+            size=3
+        )
+        step_m *= min(1.0, 0.5 / max(math.hypot(*step_m), 1e-9))
+        at_m = at_m + step_m
+        if turns and rng.random() < 0.3:
+            rotation = tuple(rng.normal(size=4).tolist())
+        pose = None if rng.random() < 0.1 else Pose(at_m.tolist(), rotation)
+        change = plain.look(pose)
+        assert twin.look(pose) == change
+        assert twin.next_m == plain.next_m
+        if change:
+            plain.follow(update, time_s)
+            twin.follow(update, time_s)
+        if rng.random() < 0.1:
+            call = str(rng.choice(["land", "meet"]))
+            getattr(plain, call)(update)
+            getattr(twin, call)(update)
+        for name in ("steps", "pose", "step_m", "since", "n_steps", "far_m2", "gap", "goes_on"):
+            assert getattr(twin, name) == getattr(plain, name), name

@@ -7,7 +7,7 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from scene2hap.render.bursts import MOST_SUM, Bursts, Fade, PlannedBurst, Samples, peak_of, summed, wave_of
+from scene2hap.render.bursts import LEAST_SUM, MOST_SUM, Bursts, Fade, PlannedBurst, Samples, peak_of, summed, wave_of
 from scene2hap.render.limiter import soft_limit_sum
 
 RATE = 48_000
@@ -56,6 +56,7 @@ def test_the_peak_is_that_of_all_samples(seed: int) -> None:
     waves = [wave_of(a, b, RATE) for a, b in zip(f.tolist(), decays.tolist(), strict=True)]
     every = float(np.abs(summed(waves, weights.tolist())).max())
     assert peak_of(waves, weights, decays, RATE) == every
+    assert every >= LEAST_SUM * weights.max()
 
 
 def test_a_beat_may_peak_late() -> None:
