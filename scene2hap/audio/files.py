@@ -214,12 +214,12 @@ def written_whole(path: Path) -> Iterator[Path]:
 def _is_cut_short(path: Path) -> bool:
     """Return True if a RIFF file ends before its stated length, which libsndfile does not report.
 
-    Programs that write into a pipe leave 0 or the largest number there.
+    Programs that write into a pipe leave 0 or the largest number there. Some count the eight bytes before it as well.
     """
     with path.open("rb") as file:
         header = file.read(8)
     stated = int.from_bytes(header[4:], "little")
-    return header[:4] == b"RIFF" and stated not in (0, 0xFFFFFFFF) and path.stat().st_size < stated + 8
+    return header[:4] == b"RIFF" and stated not in (0, 0xFFFFFFFF) and path.stat().st_size < stated
 
 
 def fits_flac(sample_rate_hz: int) -> bool:

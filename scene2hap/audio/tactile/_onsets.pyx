@@ -51,7 +51,7 @@ def onsets_among(
     cdef Py_ssize_t k
     cdef const double[:, ::1] sound = steps[0], ticks = steps[1]
     cdef double last = memory[0], before = memory[1], height_before = memory[2], lowest = memory[3]
-    cdef double began = memory[4], sustained = memory[5], of_sustained, since, energy
+    cdef double began = memory[4], sustained = memory[5], hidden = memory[6], of_sustained, since, energy
     cdef Onset onset
     found, lowered = [], np.empty(n)
     cdef double[::1] shares = lowered
@@ -63,8 +63,8 @@ def onsets_among(
             highest(sound, k, spares_sustained, &onset)
             highest(ticks, k, spares_sustained, &onset)
             since = n_known + k - last
-            of_sustained = sustained if n_known + k - began >= APART else 0.0
-            if onset.is_sustained:
+            of_sustained = max(sustained if n_known + k - began >= APART else 0.0, hidden)
+            if onset.is_sustained and (sustained > 0.0 or not is_hidden(sound, k)):
                 if sustained == 0.0:
                     began = n_known + k
                 sustained = max(sustained, onset.height)
@@ -72,10 +72,13 @@ def onsets_among(
                 if since >= SPARED:
                     before = sound[1, k]
                 last, height_before, lowest = n_known + k, onset.height, INFINITY
+                hidden = onset.height if onset.is_sustained else 0.0
                 found.append((k, onset.height, onset.left))
         energy, since = sound[0, k], n_known + k - last
         if RISE * energy < sustained:
             sustained = 0.0
+        if RISE * ticks[0, k] < hidden:
+            hidden = 0.0
         if since > LOOK:
             if spares_sustained and since >= APART and energy > RISE * lowest:
                 lowest = 0.0
@@ -85,8 +88,17 @@ def onsets_among(
             shares[k] = sqrt(before / energy)
             is_lowered = True
     memory[0], memory[1], memory[2], memory[3] = last, before, height_before, lowest
-    memory[4], memory[5] = began, sustained
+    memory[4], memory[5], memory[6] = began, sustained, hidden
     return found, lowered if is_lowered else None
+
+
+cdef bint is_hidden(const double[:, ::1] sound, Py_ssize_t k) noexcept:
+    """Return True if the energy of the whole sound hardly rises at an onset, so that no bed follows it."""
+    cdef Py_ssize_t i
+    for i in range(k, k + LOOK + 1):
+        if sound[0, i] > RISE * sound[1, k]:
+            return False
+    return True
 
 
 cdef void highest(const double[:, ::1] band, Py_ssize_t k, bint spares_sustained, Onset* onset) noexcept:

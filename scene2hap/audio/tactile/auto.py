@@ -28,7 +28,7 @@ from scene2hap.audio.tactile.attacks import EmphasizedAttacks
 from scene2hap.audio.tactile.bursts import WithBursts
 from scene2hap.audio.tactile.envelope import EnvelopeCarrier
 from scene2hap.audio.tactile.following import HEADROOM_DB, LevelFollower
-from scene2hap.audio.tactile.motion import modulation_gain, motion, played_band
+from scene2hap.audio.tactile.motion import modulation_gain, motion, played_band, ringing_s
 from scene2hap.audio.tactile.roughness import DEPTH, LINE_Q, Roughened
 from scene2hap.audio.tactile.stages import Chain, Scaled, SosStage, Stage, StageStream, WholeSteps
 
@@ -80,7 +80,14 @@ class Auto(Adaptive):
             depth = _drive_depth(context, felt_hz, context.rough_hz)
             bed = Roughened(bed, band, line, context.rough_hz, sample_rate_hz, depth=depth)
         share_db = bed_db if is_known else None
-        with_bursts = WithBursts(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known, bed_db=share_db)
+        with_bursts = WithBursts(
+            bed,
+            carrier_hz(context),
+            sample_rate_hz,
+            bed_follows=is_known,
+            bed_db=share_db,
+            ringing_s=ringing_s(context.actuator) if is_known else 0.0,
+        )
         parts: list[Stage] = [WholeSteps(with_bursts.step), SosStage(heard_sections(sample_rate_hz))]
         parts.append(EmphasizedAttacks(with_bursts, with_bursts.step) if is_known else with_bursts)
         if bed_db is None:

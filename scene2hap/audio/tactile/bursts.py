@@ -1,6 +1,6 @@
 """Bursts: each sudden beginning of a sound as a short pulse at a frequency that is felt well.
 
-    burst sqrt(2 (E_max - S)) hann(t / T) sin(2 pi f t),   T 8 ms (sharp) to 20 ms
+    burst sqrt(2 (E_max - S)) hann(t / T) sin(2 pi f t),   T 8 ms (sharp) to 20 ms, longer on a resonant actuator
 
 E_max is the highest energy of the onset, S the slow mean before it (`onsets`). A steady sound is unchanged, bit for
 bit. The stage has a latency of 10 ms, in which it measures the height of an onset.
@@ -25,7 +25,8 @@ from scene2hap.audio.tactile.step_energies import mean_squares
 TICKS_HZ = 1000.0
 """Lowest frequency of the part in which ticks are looked for [Hz]."""
 SHARP_S, DULL_S = 0.008, 0.020
-"""Duration of the burst of an onset that is over within 10 ms, and of one that keeps its energy so long [s]."""
+"""Duration of the burst of an onset that is over within 10 ms, and of one that keeps its energy so long [s]. A burst on
+a resonant actuator is longer by the time that its motion needs to rise."""
 ABOVE_BED, AROUND_S = 8.0, 0.25
 """Largest ratio of a burst to the bed before it (18 dB), and the time over which that bed is measured [s]. A stronger
 burst would use up the head-room that the bed needs to reach its level."""
@@ -41,7 +42,8 @@ class WithBursts(Stage):
     """The bed of the sound without its onsets, plus a burst of `carrier_hz` for each onset.
 
     A bed that follows the level of the sound renders sustained onsets by itself. If the level of the bed relative to
-    the sound is known (`bed_db`), a burst has the energy of its onset times that ratio.
+    the sound is known (`bed_db`), a burst has the energy of its onset times that ratio. Bursts are longer by
+    `ringing_s`, for which the actuator rings.
     """
 
     def __init__(
@@ -52,8 +54,9 @@ class WithBursts(Stage):
         *,
         bed_follows: bool = False,
         bed_db: float | None = None,
+        ringing_s: float = 0.0,
     ) -> None:
-        self._bed, self._rate_hz = bed, sample_rate_hz
+        self._bed, self._rate_hz, self._ringing_s = bed, sample_rate_hz, ringing_s
         self._share = None if bed_db is None else 10 ** (bed_db / 10)
         self.step: int = max(1, round(STEP_S * sample_rate_hz))
         self._high = SosStage(high_pass(min(TICKS_HZ, 0.4 * sample_rate_hz), sample_rate_hz))
@@ -61,7 +64,7 @@ class WithBursts(Stage):
         self._detector, self._n_made = OnsetDetector(spares_sustained=bed_follows), 0
         self._n_around = max(1, round(AROUND_S * sample_rate_hz))
         self._past = deque([np.zeros(self._n_around)])  # of the bed, in parts
-        longest = max(1, round(DULL_S * sample_rate_hz))
+        longest = max(1, round((DULL_S + ringing_s) * sample_rate_hz))
         self._carrier = np.sin(2.0 * np.pi * carrier_hz / sample_rate_hz * np.arange(longest))
         self._due: list[PendingOnset] = []
         self._bursts: list[tuple[int, Signal]] = []
@@ -113,7 +116,7 @@ class WithBursts(Stage):
         return out
 
     def _burst(self, due: PendingOnset, bed_before: Signal) -> Signal:
-        n = round((SHARP_S + (DULL_S - SHARP_S) * due.left) * self._rate_hz)
+        n = round((SHARP_S + (DULL_S - SHARP_S) * due.left + self._ringing_s) * self._rate_hz)
         bed = float(max(bed_before.max(), -bed_before.min()))
         amplitude = math.sqrt(2.0 * due.height)
         if self._share is not None:

@@ -40,6 +40,16 @@ def motion(actuator: ActuatorProfile, sample_rate_hz: float, *, is_compensated: 
     return SosStage(SvfBandpass(min(actuator.resonance_hz, _HIGHEST * sample_rate_hz), q).section(sample_rate_hz))
 
 
+def ringing_s(actuator: ActuatorProfile) -> float:
+    """Return the time in which the compensated motion rings down to 1/e [s]; 0 where `motion` is None.
+
+    It is Q / (pi f_0), and as long is the time in which the motion for a sine rises to 1 - 1/e of its height.
+    """
+    if actuator.response_db or actuator.resonance_hz is None or actuator.q is None:
+        return 0.0
+    return actuator.q / _BOOST / (np.pi * actuator.resonance_hz)
+
+
 def modulation_gain(actuator: ActuatorProfile, carrier_hz: float, rate_hz: float) -> float:
     """Return the depth of an amplitude modulation in the motion, as a share of that in the compensated drive [-]."""
     f = np.abs(carrier_hz + np.array([-rate_hz, 0.0, rate_hz]))

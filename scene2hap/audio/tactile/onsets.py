@@ -41,7 +41,8 @@ follows the level of the sound."""
 LOWERED = 2.0
 """Ratio to the energy before an onset above which the bed's input is limited to that energy."""
 SUSTAINED, AFTER = 0.5, (2, 4)
-"""A sustained onset, like a syllable or a knock, keeps this share of its energy within these steps after its peak."""
+"""A sustained onset, like a syllable or a knock, keeps this share of its energy within these steps after its peak. The
+bed follows it, if the energy of the whole sound rises; a rumble may hide a knock from it."""
 WARM = round(MEAN_S / STEP_S)
 """Number of steps after which the mean of a sound is known."""
 FORGET = float(np.exp(-STEP_S / LATE_S))
@@ -92,40 +93,46 @@ def onsets_among(
     Parameters: steps : energy, slow mean and recent maximum of each step of sound and ticks (2, 3, m), where m exceeds
     n by the steps that measure an onset; n_known : number of earlier steps; memory : step of the last onset, energy of
     the sound before it, energy of the onset, the least energy since, 0 once the bed is spared no longer, and begin
-    [steps] and energy of the last sustained onset, 0 once the sound is 1 / `RISE` of it (6,), updated by this function;
-    spares_sustained : no burst for sustained onsets.
+    [steps] and energy of the last sustained onset, 0 once the sound is 1 / `RISE` of it, and energy of the last hidden
+    one, 0 once the ticks are 1 / `RISE` of it (7,), updated by this function; spares_sustained : no burst for sustained
+    onsets, unless they are hidden.
     Returns: onsets (step, energy, share of the energy after `LOOK` steps); amplitude of the bed's input (n,) [-], None
     if all are 1.
     """
     onsets, shares = [], np.ones(n)
     sound, ticks = steps
-    last, before, height_before, lowest, began, sustained = memory.tolist()
+    last, before, height_before, lowest, began, sustained, hidden = memory.tolist()
     rising = (sound[0] > RISE * sound[1]) | (ticks[0] > RISE * ticks[1])
     for k in range(n):
         number = n_known + k
         # The beginning of a sound is no onset: its mean is not known yet.
         if rising[k] and number >= WARM:
             height, left, is_sustained = _highest(steps, k)
+            is_sustained = is_sustained and spares_sustained
+            is_followed = is_sustained and (sustained > 0.0 or not _is_hidden(sound, k))
             since = number - last
             # A sustained sound may end before the mean has reached it. Its last steps are no onset.
-            of_sustained = sustained if number - began >= APART else 0.0
+            of_sustained = max(sustained if number - began >= APART else 0.0, hidden)
             least = LOUDER * (of_sustained if since >= APART else max(of_sustained, height_before))
-            if is_sustained and spares_sustained:
+            if is_followed:
                 began, sustained = began if sustained else number, max(sustained, height)
             elif height > least:
                 # Between quick strokes the mean does not recover, so the energy before the first stroke is kept.
                 before = float(sound[1, k]) if since >= SPARED else before
                 last, height_before, lowest = number, height, np.inf
+                hidden = height if is_sustained else 0.0
                 onsets.append((k, height, left))
         energy, since = float(sound[0, k]), number - last
         if RISE * energy < sustained:
             sustained = 0.0
+        if RISE * float(ticks[0, k]) < hidden:
+            hidden = 0.0
         if since > LOOK:
             rises_again = spares_sustained and since >= APART and energy > RISE * lowest
             lowest = 0.0 if rises_again else min(lowest, max(energy, QUIETEST))
         if since < SPARED and lowest > 0.0 and energy > LOWERED * before:
             shares[k] = (before / energy) ** 0.5
-    memory[:] = last, before, height_before, lowest, began, sustained
+    memory[:] = last, before, height_before, lowest, began, sustained, hidden
     return onsets, shares if (shares < 1.0).any() else None
 
 
@@ -144,6 +151,11 @@ def _highest(bands: Signal, k: int) -> tuple[float, float, bool]:
     return found
 
 
+def _is_hidden(sound: Signal, k: int) -> bool:
+    """Return True if the energy of the whole sound (3, m) hardly rises at an onset, so that no bed follows it."""
+    return float(sound[0, k : k + LOOK + 1].max()) <= RISE * float(sound[1, k])
+
+
 class OnsetDetector:
     """Finds onsets in the energies of the sound and of its ticks, block by block."""
 
@@ -156,7 +168,7 @@ class OnsetDetector:
         self._shares = np.empty(0)  # of those of these steps that were searched for onsets
         self._found: deque[tuple[int, float, float]] = deque()  # onsets among them
         self._means = np.zeros((2, 2))
-        self._memory = np.array([-float(SPARED), 0.0, 0.0, np.inf, 0.0, 0.0])
+        self._memory = np.array([-float(SPARED), 0.0, 0.0, np.inf, 0.0, 0.0, 0.0])
 
     @property
     def n_waiting(self) -> int:
@@ -196,5 +208,4 @@ def _measured(sound: Signal, shares: Signal, k: int, height: float, left: float,
     before, energies = float(sound[1, k]), sound[0, k:end]
     is_beds = (shares[k:end] == 1.0) & (energies > LOWERED * before)
     spared = float(np.where(is_beds, 0.0, np.maximum(energies - before, 0.0)).sum())
-    is_hidden = float(sound[0, k : k + LOOK + 1].max()) <= RISE * before
-    return PendingOnset(k, height, left, spared, is_hidden=is_hidden)
+    return PendingOnset(k, height, left, spared, is_hidden=_is_hidden(sound, k))

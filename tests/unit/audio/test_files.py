@@ -186,6 +186,14 @@ def test_a_file_cut_short_is_refused_and_one_from_a_pipe_is_read(tmp_path: Path)
     assert len(read_clip(tmp_path / "a.wav").samples) == RATE
 
 
+def test_a_wav_whose_header_states_the_size_of_the_whole_file_is_read(tmp_path: Path) -> None:
+    """RIFF counts what follows its first eight bytes; some programs write the size of the file."""
+    path = tmp_path / "a.wav"
+    whole = encoded(tone(), RATE)
+    path.write_bytes(whole[:4] + len(whole).to_bytes(4, "little") + whole[8:])
+    assert len(read_clip(path).samples) == RATE
+
+
 def test_a_rate_beyond_any_recorder_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "fan.wav"
     soundfile.write(path, np.zeros(2000), 2**31 - 1, subtype="PCM_16")

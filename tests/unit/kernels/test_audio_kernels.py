@@ -57,7 +57,7 @@ def test_kernels_find_the_same_onsets_and_lower_the_bed_alike(
     steps = follow(np.array([sound, ticks]), np.array([[1e-4, 1e-3], [1e-4, 1e-3]]), n_known)
     answers = []
     for kernel in both("audio.tactile.onsets.onsets_among"):
-        memory, found, shares = np.array([-24.0, 0.0, 0.0, np.inf, 0.0, 0.0]), [], []
+        memory, found, shares = np.array([-24.0, 0.0, 0.0, np.inf, 0.0, 0.0, 0.0]), [], []
         for begin, end in ((0, 130), (130, n)):
             part = np.ascontiguousarray(steps[:, :, begin : end + beyond])
             onsets, lowered = kernel(part, end - begin, n_known + begin, memory, spares)

@@ -199,6 +199,21 @@ def test_a_tick_that_a_rumble_hides_from_the_energy_is_felt_all_the_same() -> No
         assert level[at : at + 4].max() - np.median(level[at - 10 : at]) > 5.0
 
 
+@pytest.mark.parametrize("decay_s", [0.02, 0.06])
+def test_a_knock_that_a_rumble_hides_from_the_energy_is_felt_once(decay_s: float) -> None:
+    """A knock is sustained, but the energy of the whole sound rises by 2 dB, which no bed makes an event of."""
+    rate, t = 48_000, np.arange(5 * 48_000) / 48_000
+    since = (t - 0.5) % 0.5
+    hum = 0.3 * np.sin(2 * np.pi * 97 * t) + 0.06 * np.sin(2 * np.pi * 250 * t) + 1e-4 * np.cos(2 * np.pi * 2200 * t)
+    knocks = 0.2 * np.exp(-since / decay_s) * np.sin(2 * np.pi * 2500 * since) * (t > 0.4)
+    felt = auto(hum + knocks, rate, 250.0, -13.9)
+    level = 10 * np.log10((felt.reshape(-1, rate // 200) ** 2).mean(axis=1) + 1e-12)
+    for at in range(100, 900, 100):
+        usual = np.median(level[at - 40 : at])
+        assert level[at : at + 4].max() > usual + 6.0
+        assert level[at + 6 : at + 80].max() < usual + 3.0
+
+
 def test_a_tick_at_the_very_end_is_kept() -> None:
     """In an earlier version the last 20 ms were not searched."""
     found = starts_s(bursts(ticks(np.array([0.5, 1.985]), 0.0, 0.5, 2.0), bed_follows=True))
