@@ -164,7 +164,7 @@ def _is_of_an_export(content: bytes) -> bool:
     """Whether a JSON text is a manifest or a report of an export, of this or of another version."""
     try:
         found = parse_json(content)
-    except (ValueError, RecursionError):
+    except ValueError:
         return False
     return isinstance(found, dict) and (found.get("format") == FORMAT or {"folder", "files"} <= found.keys())
 
