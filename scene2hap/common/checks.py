@@ -278,7 +278,7 @@ def flag(name: str, value: object, *, error: type[Scene2HapError]) -> bool:
         return value
     if type(value).__name__ in ("bool", "bool_"):  # NumPy's bool, checked without importing NumPy
         return bool(value)
-    raise error(f"{name} is {represented(value)}; it must be True or False.")
+    raise error(f"{name} is {represented(value)}; it must be {represented(True)} or {represented(False)}.")
 
 
 def text(name: str, value: object, *, error: type[Scene2HapError]) -> str:
