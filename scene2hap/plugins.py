@@ -129,7 +129,8 @@ class PluginGroup:
             return factory(**settings)
         except TypeError as cause:
             reason = settings_misfit(factory, settings) or f"{cause}."
-            raise ConfigError(f"{self.name} kind {kind!r} does not take {shown(settings)}: {reason}") from cause
+            given = f"does not take {shown(settings)}" if settings else f"needs settings, {{'kind': {kind!r}, ...}}"
+            raise ConfigError(f"{self.name} kind {kind!r} {given}: {reason}") from cause
 
     def _ready_made(self, given: object) -> object:
         if isinstance(given, type):

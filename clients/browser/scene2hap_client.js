@@ -186,6 +186,10 @@ const SILENT_HEARTBEATS = 5;
 const CONNECTION_LOST = "ConnectionLost";
 /** Codes after which another attempt would end in the same way. */
 const FINAL_CODES = new Set([4000, 4001, 4003]);
+/** Requests with which a session begins; one at a time is under way. */
+const STARTS = new Set(["play", "watch", "resume"]);
+/** Requests that change which objects there are, or which of them move. */
+const CHANGES = new Set(["add", "spawn", "moving"]);
 
 /** A promise with its functions. A rejection that nobody awaits is not reported: each is an event as well. */
 function deferred() {
@@ -236,10 +240,11 @@ export class Scene2HapClient extends EventTarget {
   #firstUnheard_s = Infinity; // when the first frame was sent since the server was last heard
 
   #nextId = 1;
-  #requests = new Map(); // id -> {type, isQuiet, answer}
+  #requests = new Map(); // id -> {message, isQuiet, isLeft, answer}; isLeft: `leave` was sent after it
   #jobs = new Map(); // job -> answer
   /** @type {any} */ #baked = null; // the last bake request: a restarted server needs it again
-  /** @type {any} */ #played = null; // the last play or watch request
+  /** @type {any} */ #wanted = null; // the play or watch request that was not answered yet
+  /** @type {any} */ #played = null; // that of the session that goes on
 
   /** @type {Order | null} */ #order = null;
   #isPlaying = false;
@@ -307,7 +312,8 @@ export class Scene2HapClient extends EventTarget {
 
   /** End the session, or stop watching. The connection stays, for another `play`; `close` ends it. */
   leave() {
-    const left = this.#isOnline && this.#played ? this.request({ type: "leave" }) : Promise.resolve();
+    for (const request of this.#starts()) request.isLeft = true;
+    const left = this.#isOnline && (this.#played || this.#wanted) ? this.request({ type: "leave" }) : Promise.resolve();
     this.#forget();
     return left.then(
       () => {},
@@ -434,7 +440,6 @@ export class Scene2HapClient extends EventTarget {
       if (this.#played !== played) return;
       again = { ...played, job };
     }
-    this.#played = again;
     await this.#ask(again);
   }
 
@@ -464,7 +469,7 @@ export class Scene2HapClient extends EventTarget {
       answer.reject(this.#fail("MessageTooLarge", problem));
       return answer.promise;
     }
-    this.#requests.set(id, { type: message.type, isQuiet, answer });
+    this.#requests.set(id, { message, isQuiet, isLeft: false, answer });
     this.#socket.send(text);
     return answer.promise;
   }
@@ -490,38 +495,53 @@ export class Scene2HapClient extends EventTarget {
    * @returns {Promise<Order>}
    */
   play(request) {
-    if (this.#isPlaying) return this.#refuse("play");
+    if (this.#isUnderWay) return this.#refuse("play");
     this.#learnPoses(request.scene);
-    return this.#begin({ ...request, type: "play" });
+    return handled(this.#begin({ ...request, type: "play" }));
   }
 
   /**
-   * Get the gains of a session that another client plays, in place of one that was watched before.
+   * Get the gains of a session that another client plays. They take the place of those of one that was watched before
+   * when the server answers.
    *
    * @param {{session: string}} request
    * @returns {Promise<Order>}
    */
   watch({ session }) {
-    if (this.#isPlaying) return this.#refuse("watch");
-    return this.#begin({ type: "watch", session });
+    if (this.#isUnderWay) return this.#refuse("watch");
+    return handled(this.#begin({ type: "watch", session }));
   }
 
-  /** Ask for a session, unless `leave` or another one comes before there is a connection. */
-  #begin(message) {
-    this.#forget();
-    this.#played = message;
-    return handled(this.#askUntilHeard(message, () => this.#played === message));
+  /** Ask for a session, unless `leave` or another one comes before the server can be asked. */
+  async #begin(message) {
+    if (this.#played?.type === "play") this.#forget(); // one that waits for its connection
+    this.#wanted = message;
+    try {
+      return await this.#askUntilHeard(message, () => this.#wanted === message);
+    } finally {
+      if (this.#wanted === message) this.#wanted = null;
+    }
+  }
+
+  /** Requests under way with which a session begins. */
+  #starts() {
+    return [...this.#requests.values()].filter(({ message }) => STARTS.has(message.type));
+  }
+
+  /** Whether a session is played, or will be unless the server refuses it. */
+  get #isUnderWay() {
+    return this.#isPlaying || this.#starts().some(({ message, isLeft }) => message.type !== "watch" && !isLeft);
   }
 
   /** The server would refuse it too, but this side would have forgotten its session by then. */
   #refuse(type) {
-    const problem = `${type} was not sent: this connection plays a session. Call leave first.`;
+    const problem = `${type} was not sent: a session is under way on this connection. Call leave first.`;
     return handled(Promise.reject(this.#fail("BridgeError", problem)));
   }
 
   /** Forget the last session, so that a new connection does not resume it; gains that still come are not felt. */
   #forget() {
-    this.#order = this.#played = null;
+    this.#order = this.#played = this.#wanted = null;
     this.#isPlaying = false;
     this.#gainsAt_s = -Infinity;
   }
@@ -529,6 +549,11 @@ export class Scene2HapClient extends EventTarget {
   async #askUntilHeard(message, isStillWanted = () => true) {
     for (;;) {
       await this.#online.promise;
+      const [before] = STARTS.has(message.type) ? this.#starts() : [];
+      if (before) {
+        await before.answer.promise.catch(() => {});
+        continue;
+      }
       if (!isStillWanted()) {
         throw new Scene2HapError("Cancelled", `${message.type} was not sent: leave or another request came first.`);
       }
@@ -781,8 +806,10 @@ export class Scene2HapClient extends EventTarget {
     const request = this.#requests.get(re);
     this.#requests.delete(re);
     const isOfSession = type === "order" && this.#order !== null; // of one that was left it is of no use
-    if (type === "playing" || type === "watching" || isOfSession) this.#takeOrder(message);
-    if (type === "left") [this.#order, this.#isPlaying] = [null, false]; // `playing` may have come since `leave`
+    const hasBegun = (type === "playing" || type === "watching") && !request?.isLeft;
+    if (hasBegun && request && request.message.type !== "resume") this.#played = request.message;
+    if (hasBegun || isOfSession) this.#takeOrder(message);
+    if (type === "left") [this.#order, this.#played, this.#isPlaying] = [null, null, false];
     if (type === "baking" && request) {
       this.#jobs.set(job, request.answer); // `bake` resolves with `baked`
     } else if (type === "error") {
@@ -795,7 +822,7 @@ export class Scene2HapClient extends EventTarget {
       if (type === "cancelled") this.#jobs.get(job)?.reject(new Scene2HapError("Cancelled", `${job} was cancelled.`));
       if (type === "baked" || type === "cancelled") this.#jobs.delete(job);
     }
-    const detail = type === "playing" ? { ...message, isResumed: request?.type === "resume" } : message;
+    const detail = type === "playing" ? { ...message, isResumed: request?.message.type === "resume" } : message;
     if (typeof type === "string") this.#emit(type, detail);
   }
 
@@ -839,9 +866,9 @@ export class Scene2HapClient extends EventTarget {
   }
 
   /** Report a wrong id, unless a request waits whose answer may make it right. */
-  #reportWrong(message, key = message) {
-    const isChanging = [...this.#requests.values()].some(({ type }) => ["add", "spawn", "moving"].includes(type));
-    if (!isChanging) this.#report(message, key);
+  #reportWrong(problem, key = problem) {
+    const isChanging = [...this.#requests.values()].some(({ message }) => CHANGES.has(message.type));
+    if (!isChanging) this.#report(problem, key);
   }
 
   /** Report an error of this side in the form of the server's, and return it. */

@@ -76,6 +76,7 @@ namespace Scene2Hap
 
         // The session.
         string session;
+        string received; // id of the watched session whose gains the server sends
         readonly byte[] key = new byte[8];
         string keyText;
         int layout, nMoving;
@@ -423,7 +424,6 @@ namespace Scene2Hap
                 return Refuse("KeepS must be finite; give 0 to 600.");
             if (IsUnderWay())
                 return false;
-            StopWatching();
             play = options;
             mustBake |= options.Bundle == null && job < 0 && !isBaking;
             Advance();
@@ -431,12 +431,11 @@ namespace Scene2Hap
         }
 
         /// <summary>Get the gains of a session that another client plays, by its SessionId, as soon as there is a
-        /// connection. It takes the place of one that was watched before.</summary>
+        /// connection. It takes the place of one that was watched before, which goes on until then.</summary>
         public bool Watch(string sessionId)
         {
             if (IsUnderWay())
                 return false;
-            StopWatching();
             play = null;
             watched = sessionId;
             Advance();
@@ -449,10 +448,10 @@ namespace Scene2Hap
                 && !Refuse("a session is under way; call Leave and wait for Left before another.");
         }
 
-        /// <summary>Forget the watched session. The server does so when another one begins.</summary>
+        /// <summary>Forget the watched session, which ended or is left.</summary>
         void StopWatching()
         {
-            watched = null;
+            watched = received = null;
             hasGains = false;
             if (State == ClientState.Watching)
                 State = ClientState.Ready;
@@ -529,9 +528,12 @@ namespace Scene2Hap
         public bool Leave()
         {
             bool isOn = session != null || State == ClientState.Watching;
+            string before = received;
             play = null;
             StopWatching();
-            return isOn && Send("leave", Begun("leave"));
+            if (isStarting)
+                received = before; // the answer tells what is to be left
+            return isOn && (isStarting || Send("leave", Begun("leave")));
         }
 
         /// <summary>Send any request of the protocol that has no method here, such as "cancel". `answered` gets the
@@ -624,11 +626,11 @@ namespace Scene2Hap
                 SendBake();
             else if (mustFollow)
                 mustFollow = !Send("follow", Begun("follow").Add("job", bakingJob));
-            if (State != ClientState.Ready || isStarting)
+            if (State == ClientState.Playing || isStarting)
                 return;
             if (session != null)
                 isStarting = Send("resume", Begun("resume").Add("session", session).Add("key", keyText));
-            else if (watched != null)
+            else if (watched != null && watched != received)
                 isStarting = Send("watch", Begun("watch").Add("session", watched));
             else if (play != null && (play.Bundle != null || job >= 0))
                 SendPlay();
@@ -717,7 +719,9 @@ namespace Scene2Hap
             opened = null;
             List<Pending> lost = new List<Pending>(pending.Values);
             pending.Clear();
-            bool hasLeft = (session != null && play == null) || lost.Exists(request => request.Type == "leave");
+            bool hasLeft = (session != null && play == null) || lost.Exists(request => request.Type == "leave")
+                || (received != null && play == null && watched == null);
+            received = null;
             if (one.IsFinal || hasLeft)
                 session = null;
             // A bake goes on without its connection, but its number must be known to follow it.
@@ -813,10 +817,17 @@ namespace Scene2Hap
             bool isOfBake = failedType == "bake" && message["re"].AsCount() == bakeId;
             if (isBaking && (isOfBake || (failed >= 0 && failed == bakingJob)))
                 ForgetBake();
-            if (isPlay || isResume || failedType == "watch")
+            bool isWatch = failedType == "watch";
+            bool hasLeft = received != null && play == null && watched == null;
+            if (isPlay || isResume || isWatch)
                 isStarting = false;
-            if (failedType == "watch")
-                watched = null;
+            if (hasLeft && (isPlay || isWatch))
+            {
+                received = null;
+                Send("leave", Begun("leave"));
+            }
+            if (isWatch)
+                watched = received;
             if (isResume)
                 EndSession();
             bool isJobGone = failedType == "follow"
@@ -837,6 +848,8 @@ namespace Scene2Hap
                 if (RequestFailed != null)
                     RequestFailed(failedType, message);
                 Report((request != null ? failedType + ": " : "") + kind + ": " + text);
+                if (isWatch)
+                    Advance();
             }
         }
 
@@ -858,7 +871,7 @@ namespace Scene2Hap
             string id = message["session"].AsText(), text = message["key"].AsText();
             byte[] read = KeyOf(text);
             long taken = message["sequence"].AsCount();
-            bool isAnswer = State == ClientState.Ready && (isResumed || (request != null && request.Type == "play"));
+            bool isAnswer = State != ClientState.Playing && (isResumed || (request != null && request.Type == "play"));
             if (!isAnswer || id.Length == 0 || read == null || taken < 0 || taken > uint.MaxValue
                 || !ReadOrder(message))
             {
@@ -870,6 +883,7 @@ namespace Scene2Hap
             keyText = text;
             Buffer.BlockCopy(read, 0, key, 0, 8);
             State = ClientState.Playing;
+            watched = received = null;
             hasGains = false;
             unansweredSince = 0;
             if (play == null) // Leave was called meanwhile
@@ -898,14 +912,16 @@ namespace Scene2Hap
             if (request == null || request.Type != "watch")
                 return;
             isStarting = false;
-            if (State != ClientState.Ready || !ReadOrder(message))
+            if (State == ClientState.Playing || !ReadOrder(message))
                 return;
             State = ClientState.Watching;
+            received = watched;
             hasGains = false;
             if (watched == null) // Leave was called meanwhile
                 Leave();
             else
                 Raise(Started);
+            Advance();
         }
 
         void HandleState(string now)
@@ -913,7 +929,11 @@ namespace Scene2Hap
             if (State != ClientState.Watching)
                 return;
             if (now == "ended")
+            {
+                string next = watched == received ? null : watched;
                 StopWatching();
+                watched = next;
+            }
             if (WatchedState != null)
                 WatchedState(now);
         }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from scene2hap.bridge.hosted_session import HostedSession
@@ -20,10 +20,12 @@ MAX_GAINS_WAITING = 64
 class Client:
     """A client after its hello.
 
-    Parameters: pictures : stores the pictures that it sends. `is_too_slow` is set if too many messages wait.
+    Parameters: pictures : stores the pictures that it sends; as_told : returns the text of an error or of a warning as
+    the client may read it. `is_too_slow` is set if too many messages wait.
     """
 
-    def __init__(self, pictures: SentPictures) -> None:
+    def __init__(self, pictures: SentPictures, as_told: Callable[[str], str]) -> None:
+        self._as_told = as_told
         self.hosted: HostedSession | None = None
         self.watched: HostedSession | None = None
         self.pictures = pictures
@@ -45,6 +47,8 @@ class Client:
         if len(self._waiting) >= MAX_WAITING:
             self.is_too_slow.set()
             return
+        if "message" in document:
+            document = {**document, "message": self._as_told(document["message"])}
         self._waiting.append(json.dumps(document, allow_nan=False))
         self._has_work.set()
 

@@ -26,7 +26,7 @@ class Connection:
     def __init__(self, socket: ServerConnection, host: Host) -> None:
         self._socket, self._host = socket, host
         self.loop: asyncio.AbstractEventLoop = asyncio.get_running_loop()
-        self.client: Client = Client(SentPictures(lambda: host.jobs.folder))
+        self.client: Client = Client(SentPictures(lambda: host.jobs.folder), host.as_told)
         self._n_taken, self._is_taking = 0, False
 
     async def run(self) -> None:

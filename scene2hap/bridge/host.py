@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hmac
+import re
 from pathlib import Path
 
 from scene2hap.bridge.config import BridgeConfig
@@ -52,6 +53,16 @@ class Host:
                 f"the path {checks.represented(path)} is not below the bridge's root; give a path below it."
             )
         return found
+
+    def as_told(self, message: str) -> str:
+        """Return a message for clients. It names files as clients do, relative to the root, and not where they are."""
+        folders = {self.config.root: "the bridge's root", self.jobs.temporary: "a temporary folder of the bridge"}
+        for folder, name in folders.items():
+            # A root of / would be found everywhere. `repr` doubles each backslash of a path of Windows.
+            for spelled in () if folder is None or folder == folder.parent else {str(folder), repr(str(folder))[1:-1]}:
+                message = re.sub(rf"{re.escape(spelled)}[/\\]+", "", message)
+                message = re.sub(rf"{re.escape(spelled)}(?![\w-]|\.\w)", name, message)
+        return message
 
     def hosted(self, session_id: str) -> HostedSession:
         """Return a session by its id. Raises: UnknownSession: it has ended, or is ending."""

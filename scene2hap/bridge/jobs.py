@@ -48,12 +48,17 @@ class Jobs:
                 self._temporary = TemporaryFolder()
         return self._temporary.path
 
+    @property
+    def temporary(self) -> Path | None:
+        """That folder, None if no job has needed it yet."""
+        return None if self._temporary is None else self._temporary.path
+
     def require_place(self) -> None:
         """Raise a BridgeError if no bake can start now: too many run, or this program cannot start Python."""
         if not can_start_python():
             raise BridgeError(
-                f"a bake needs a Python of its own, and this program, {sys.executable!r}, is frozen or embeds Python, "
-                "so that it would start itself again. Bake before you ship the program, and play the bundle."
+                "a bake needs a Python of its own, and the bridge's program is frozen or embeds Python, so that it "
+                "would start itself again. Bake before you ship the program, and play the bundle."
             )
         if len(self._tasks) >= MAX_RUNNING:
             raise BridgeError(f"{MAX_RUNNING} bakes are running already; wait for one to end, or cancel one.")
@@ -169,4 +174,4 @@ class Jobs:
                 shutil.rmtree(forgotten, ignore_errors=True)
 
     def _is_temporary(self, path: Path) -> bool:
-        return self._temporary is not None and path.is_relative_to(self._temporary.path)
+        return self.temporary is not None and path.is_relative_to(self.temporary)

@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
 from scene2hap.common import checks
 from scene2hap.common.json_fields import WHOLE, Flag, Real, Whole
-from scene2hap.common.json_texts import parse_json
+from scene2hap.common.json_texts import has_surrogates, parse_json
 from scene2hap.errors import BridgeError
 
 VERSION = 1
@@ -195,29 +195,20 @@ _REQUESTS: tuple[type[Request], ...] = (
 )
 MODELS: dict[str, type[Request]] = {get_args(model.model_fields["type"].annotation)[0]: model for model in _REQUESTS}
 """The requests by their type."""
-_document: TypeAdapter[Document] = TypeAdapter(Document)
 _id: TypeAdapter[int] = TypeAdapter(Whole)
 
 
 def read_document(text: str) -> Document:
     """Return the object in a text message. Raises: BridgeError: it is no JSON object."""
     try:
-        return _document.validate_json(text)
-    except ValidationError as cause:
-        raise BridgeError(f"the message is no JSON object: {_problem(text)}. Send an object with a type.") from cause
-
-
-def _problem(text: str) -> str:
-    """Return what is wrong in a text that pydantic, which is fast, has refused in words of its own."""
-    try:
         found = parse_json(text)
-        if isinstance(found, dict):
-            return "its lists are nested too deeply, or a text of it has half of a surrogate pair"
-        return f"it is {checks.described(found)}"
+        if not isinstance(found, dict):
+            raise ValueError(f"it is {checks.described(found)}")
+        if has_surrogates(text, found):
+            raise ValueError("a text of it has half of a surrogate pair")
     except ValueError as cause:
-        return str(cause)
-    except RecursionError:
-        return "its lists and objects are nested too deeply"
+        raise BridgeError(f"the message is no JSON object: {cause}. Send an object with a type.") from cause
+    return found
 
 
 def request_id(document: Document) -> int | None:

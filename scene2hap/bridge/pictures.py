@@ -52,7 +52,7 @@ class SentPictures:
         text, file = decode_picture(message)
         try:
             row = parse_json(text)
-        except (ValueError, RecursionError) as cause:
+        except ValueError as cause:
             raise BridgeError(f"the text of a picture is no JSON: {cause}.") from cause
         if not isinstance(row, dict):
             raise BridgeError(f"the text of a picture is {checks.described(row)}; it must be an object.")

@@ -243,6 +243,8 @@ def _bundle_folder(path: str | None, job: int | None, kind: str, host: Host) -> 
         return host.jobs.bundle(job)
     folder = host.below_root(path or "")
     if not folder.is_dir():
+        if folder.exists():
+            raise BundleIncomplete(f"{checks.represented(path)} is a file; a bundle is a folder. Give the folder.")
         near = checks.near_files(folder) or "`bake` with `save` writes one."
         raise BundleIncomplete(f"there is no bundle {checks.represented(path)} below the bridge's root. {near}")
     return folder

@@ -52,7 +52,7 @@ def read_account(folder: str | os.PathLike[str]) -> dict[str, Any] | None:
         return None
     try:
         document = read_json(read_small_text(path))
-    except (OSError, ValueError, RecursionError) as cause:
+    except (OSError, ValueError) as cause:
         raise BundleError(f"{path} cannot be read: {reason_of(cause)}. Remove it, or bake again.") from cause
     if not isinstance(document, dict) or document.get("format") != FORMAT or document.get("version") != VERSION:
         raise BundleError(f'{path} is no account: it must have "format": "{FORMAT}" and version {VERSION}. Remove it.')

@@ -28,7 +28,7 @@ def read_corrections(path: Path) -> dict[str, dict[str, Any]]:
     """
     try:
         document = read_json(read_small_text(path))
-    except (OSError, ValueError, RecursionError) as cause:
+    except (OSError, ValueError) as cause:
         raise BundleError(f"{path} cannot be read: {reason_of(cause)}. Save it again from the viewer.") from cause
     return parsed_corrections(document, str(path))
 

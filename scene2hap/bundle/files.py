@@ -19,7 +19,7 @@ def read_json(folder: Path, name: str) -> dict[str, Any]:
     data = read_bytes(folder, name)
     try:
         document = parse_json(data.decode("utf-8-sig"))  # Windows editors add a byte-order mark
-    except (ValueError, RecursionError) as cause:  # ValueError: not UTF-8, not JSON, or a number of thousands of digits
+    except ValueError as cause:  # also not UTF-8
         raise BundleIncomplete(
             f"{folder / name} cannot be read: {reason_of(cause)}. Mend the file, or bake again."
         ) from cause

@@ -44,6 +44,8 @@ COMMANDS = {
 
 _WITH_UNIT = re.compile(r"(-[0-9.]+)\s*db", re.IGNORECASE)
 """A level below zero with its unit, which argparse takes for an option."""
+_NO_INTEGER, _NO_NUMBER = re.compile(r"invalid int value: (.+)"), re.compile(r"invalid float value: (.+)")
+"""What argparse says, in Python's words."""
 _DOCS = (
     "Documentation by task: docs/README.md in the folder of the source. Every command: docs/command-line.md, or "
     "scene2hap COMMAND --help. In Python: help(scene2hap.HapticSession)."
@@ -134,6 +136,8 @@ class CommandParser(argparse.ArgumentParser):
         for action in self._actions:
             if isinstance(action.choices, Mapping) and message.endswith(str(action.metavar)):
                 message = f"{message}, one of {', '.join(action.choices)}"
+        message = _NO_INTEGER.sub(r"\1 is no whole number; write it as 5, without a unit", message)
+        message = _NO_NUMBER.sub(r"\1 is no number; write it as 0.5, without a unit", message)
         super().error(f"{message}{self._hint(message)}")
 
     def _hint(self, message: str) -> str:
@@ -145,6 +149,8 @@ class CommandParser(argparse.ArgumentParser):
             if text == "--" or "invalid choice" in message:
                 break
             if is_unknown and text not in unknown.split():  # an option of the command, which this parser does not know
+                continue
+            if text.startswith("--") and text.partition("=")[0] in self._options():
                 continue
             if text.startswith("--") and (near := did_you_mean(text.partition("=")[0], self._options())):
                 return f". {near}"

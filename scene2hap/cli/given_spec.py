@@ -12,5 +12,5 @@ def given_spec(option: str, text: str) -> object:
         return text
     try:
         return parse_json(text)
-    except (ValueError, RecursionError) as cause:
+    except ValueError as cause:
         raise ConfigError(f"{option} is {text!r}, which is no JSON ({cause}). Give a name, or an object.") from cause

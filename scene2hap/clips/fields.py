@@ -115,7 +115,7 @@ def read_fields(path: Path, *, needed: str, kind: str) -> Fields:
         raise ClipError(f"{path}: cannot be read as {kind}: {reason}.{near}") from cause
     try:
         document = parse_json(content.decode("utf-8-sig"))
-    except (ValueError, RecursionError) as cause:  # ValueError: no UTF-8, no JSON, or a number of thousands of digits
+    except ValueError as cause:  # also no UTF-8
         raise ClipError(f"{path}: is no {kind} file, which is JSON: {str(cause)[:200]}. Export it again.") from cause
     fields = Fields(document, str(path))
     if needed not in fields:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.audio.clip import Credit
+from scene2hap.common.arrays import floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ClipError
 
@@ -43,7 +44,8 @@ class Curve:
 
     def __post_init__(self) -> None:
         for name in ("times_s", "values"):
-            given = np.array(getattr(self, name), dtype=np.float64)
+            unit = "s" if name == "times_s" else "-"
+            given = np.array(floats(f"{name} of a curve", getattr(self, name), unit, error=ClipError))
             given.flags.writeable = False
             object.__setattr__(self, name, given)
         times, values = self.times_s, self.values

@@ -38,6 +38,8 @@ def floats(name: str, value: object, unit: str, *, error: type[Scene2HapError]) 
             raise TypeError(f"{found.dtype} is no type of real numbers")
         if isinstance(found, np.ma.MaskedArray) and np.ma.is_masked(found):
             raise TypeError("some of them are masked")
+        if found.dtype.kind == "O":
+            _require_numbers(found.ravel().tolist())
         with np.errstate(over="ignore"):
             return np.asarray(found, dtype=np.float64)
     except Exception as cause:  # too many digits, or any error from a foreign type
@@ -49,14 +51,15 @@ def _require_numbers(rows: Sequence[Any]) -> None:
     """Raise a TypeError if nested lists are ragged, or hold None or True, which NumPy takes for NaN and 1."""
     for _level in range(_MOST_LEVELS):
         kinds = {*map(type, rows)}
-        if not kinds or not kinds <= {list, tuple}:
+        nested = {kind for kind in kinds if issubclass(kind, list | tuple)}  # also named tuples
+        if not nested or nested < kinds:
             break
         if len({*map(len, rows)}) > 1:
             raise TypeError(_RAGGED)
         rows = [*chain.from_iterable(rows)]
     else:
         raise TypeError("its lists are nested too deeply")
-    if kinds & {list, tuple} and kinds <= {list, tuple, float, int}:  # NumPy joins lists and arrays
+    if nested and kinds - nested <= {float, int}:  # NumPy joins lists and arrays
         raise TypeError(_RAGGED)
     for kind in kinds - {float, int}:
         if issubclass(kind, bool | np.bool_ | str | bytes | NoneType | dict):

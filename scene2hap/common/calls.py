@@ -256,7 +256,8 @@ def _problem(taken: list[inspect.Parameter], args: Sequence[object], kwargs: Map
         if unknown not in known:
             name = checks.represented(unknown)
             setting = f"If it is a setting, write config={{{name}: ...}}." if "config" in known else ""
-            return f"there is no argument {name}. {checks.did_you_mean(unknown, known, setting)}".strip()
+            near = checks.did_you_mean(unknown, known)
+            return " ".join(filter(None, (f"there is no argument {name}.", near, setting)))
     positional = [one for one in taken if one.kind in (one.POSITIONAL_ONLY, one.POSITIONAL_OR_KEYWORD)]
     if len(args) <= len(positional):
         return ""

@@ -278,7 +278,7 @@ def flag(name: str, value: object, *, error: type[Scene2HapError]) -> bool:
         return value
     if type(value).__name__ in ("bool", "bool_"):  # NumPy's bool, checked without importing NumPy
         return bool(value)
-    raise error(f"{name} is {represented(value)}; it must be True or False.")
+    raise error(f"{name} is {represented(value)}; it must be {represented(True)} or {represented(False)}.")
 
 
 def text(name: str, value: object, *, error: type[Scene2HapError]) -> str:
@@ -292,6 +292,8 @@ def path(name: str, value: object, *, error: type[Scene2HapError], hint: str = "
     """Return `value` as a path, or raise `error` if it is no text and no path."""
     if not isinstance(value, str | os.PathLike):
         raise error(_sentence(f"{name} is {described(value)}; it must be a path, as a text or a pathlib.Path", hint))
+    if value == "":  # Python takes it for the working folder
+        raise error(_sentence(f"{name} is ''; it must be a path", hint))
     try:
         return Path(value)
     except TypeError as cause:  # a path of bytes

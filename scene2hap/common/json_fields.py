@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from numbers import Real as AnyReal
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Strict
 from pydantic_core import PydanticCustomError
@@ -22,6 +22,12 @@ def _whole(value: object) -> object:
     raise PydanticCustomError("int_type", "it is no number")
 
 
+def _flag(value: object) -> object:
+    if isinstance(value, bool):
+        return value
+    raise PydanticCustomError("bool_type", "it is neither true nor false")
+
+
 WHOLE = BeforeValidator(_whole)
 """For types with bounds of their own; pydantic's JSON schema has those bounds that stand before it."""
 Real = Annotated[float, BeforeValidator(_number)]
@@ -30,3 +36,5 @@ Whole = Annotated[int, WHOLE]
 """A whole number. Some languages write 7 as 7.0."""
 Flag = Annotated[bool, Strict()]
 """True or false."""
+Yes = Annotated[Literal[True], BeforeValidator(_flag)]
+"""True: Literal alone takes 1 for it, since they are equal."""

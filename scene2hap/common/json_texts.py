@@ -36,15 +36,26 @@ _MENDS_BY_MESSAGE = {
 """What to do, by the begin of the parser's own words."""
 
 
+_DEEP = "its lists and objects are nested too deeply"
 _SPELT_SURROGATE = re.compile(r"\\u[dD][89a-fA-F]")
 
 
+class RepeatedKey(ValueError):
+    """An object has a key twice. Most parsers silently take the last one, which need not be the one that counts."""
+
+    def __init__(self, key: str) -> None:
+        self.key: str = key
+        super().__init__(f"the key {printable(key)[:200]!r} is given twice in one object; remove one")
+
+
 def parse_json(text: str | bytes) -> Any:
-    """Parse a JSON text. Raises: ValueError: it is none, or an object has a key twice; RecursionError."""
+    """Parse a JSON text. Raises: ValueError: it is none, or is nested too deeply; RepeatedKey."""
     try:
         return json.loads(text, object_pairs_hook=_each_key_once)
     except json.JSONDecodeError as cause:
         raise ValueError(_problem(cause)) from cause
+    except RecursionError as cause:
+        raise ValueError(_DEEP) from cause
     except ValueError as cause:
         if str(cause).startswith("Exceeds the limit"):  # Python's words name a function of Python
             raise ValueError("a number has thousands of digits; write fewer") from cause
@@ -54,17 +65,29 @@ def parse_json(text: str | bytes) -> Any:
 def _each_key_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     found = dict(pairs)  # of two equal keys, this drops the first
     if len(found) < len(pairs):
-        twice = next(key for key, n in Counter(key for key, _ in pairs).items() if n > 1)
-        raise ValueError(f"the key {printable(twice)[:200]!r} is given twice in one object; remove one")
+        raise RepeatedKey(next(key for key, n in Counter(key for key, _ in pairs).items() if n > 1))
     return found
 
 
 def read_json(text: str) -> Any:
-    """Parse a JSON text as `parse_json`, and make its texts `writable`. Raises: ValueError, RecursionError."""
+    """Parse a JSON text as `parse_json`, and make its texts `writable`. Raises: ValueError."""
     document = parse_json(text)
-    if not _SPELT_SURROGATE.search(text) and not SURROGATES.search(text):
+    if not has_surrogates(text, document):
         return document
-    return parse_json(writable(json.dumps(document, ensure_ascii=False)))
+    return parse_json(writable(_dumped(document)))
+
+
+def has_surrogates(text: str, document: Any) -> bool:
+    """Return True if a text of the document, parsed from `text`, has half of a surrogate pair. Raises: ValueError."""
+    may_have = _SPELT_SURROGATE.search(text) or SURROGATES.search(text)  # a pair is spelt as two of them
+    return bool(may_have and SURROGATES.search(_dumped(document)))
+
+
+def _dumped(document: Any) -> str:
+    try:
+        return json.dumps(document, ensure_ascii=False)
+    except RecursionError as cause:
+        raise ValueError(_DEEP) from cause
 
 
 def printable_json(text: str) -> str:

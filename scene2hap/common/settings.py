@@ -66,11 +66,13 @@ class Settings(BaseModel):
 
     @field_validator("*", mode="before")
     @classmethod
-    def _no_flag_for_a_number(cls, value: Any, info: ValidationInfo) -> Any:
-        """Refuse True and False for a number: pydantic takes them for 1 and 0."""
-        field = cls.model_fields[str(info.field_name)]
-        if _holds_only_numbers(field.annotation) and _has_flag(value):
+    def _flags_and_numbers_differ(cls, value: Any, info: ValidationInfo) -> Any:
+        """Refuse a flag for a number, and anything else for a flag: pydantic takes true for 1, 1 and "yes" for true."""
+        annotation = cls.model_fields[str(info.field_name)].annotation
+        if _holds_only((float, int), annotation) and _has_flag(value):
             raise ValueError("it must be a number, neither true nor false")
+        if value is not None and _holds_only((bool,), annotation) and not _has_flag(value):
+            raise ValueError("it must be true or false")
         return value
 
     @classmethod
@@ -113,10 +115,10 @@ class Settings(BaseModel):
         return said if said.endswith("?") else f"{said}."
 
 
-def _holds_only_numbers(annotation: object) -> bool:
-    """Return True if all values of a type are numbers, or None: float, int | None, tuple[tuple[float, float], ...]."""
+def _holds_only(kinds: tuple[type, ...], annotation: object) -> bool:
+    """Return True if all values of a type are of these kinds, or None: float, int | None, tuple[tuple[float, ...]]."""
     parts = [part for part in get_args(annotation) if part not in (Ellipsis, NoneType)]
-    return all(map(_holds_only_numbers, parts)) if parts else annotation in (float, int)
+    return all(_holds_only(kinds, part) for part in parts) if parts else annotation in kinds
 
 
 def _has_flag(value: object) -> bool:

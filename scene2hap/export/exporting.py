@@ -164,13 +164,15 @@ def _is_of_an_export(content: bytes) -> bool:
     """Whether a JSON text is a manifest or a report of an export, of this or of another version."""
     try:
         found = parse_json(content)
-    except (ValueError, RecursionError):
+    except ValueError:
         return False
     return isinstance(found, dict) and (found.get("format") == FORMAT or {"folder", "files"} <= found.keys())
 
 
 def _exporters(to: Kinds) -> dict[str, Exporter]:
     """Return exporters by the names of their folders. Raises: ConfigError."""
+    if isinstance(to, os.PathLike):
+        raise ConfigError(f"to is a path, {checks.represented(str(to))}; it names kinds, as 'wav'. Give it as folder=.")
     if isinstance(to, str | Mapping) or not isinstance(to, Sequence):
         to = [to]
     wanted: list[Any] = [kind for one in to for kind in (EXPORTS.kinds() if one == ALL else [one])]
@@ -293,7 +295,6 @@ def _draft(drafts: DraftSet, folder: Path, name: str, content: bytes) -> None:
     if path.parent != folder or not name:
         raise ExportError(f"an exporter names a file {name!r}; it must be a name without a folder.")
     with _writing(path):
-        folder.mkdir(parents=True, exist_ok=True)
         drafts.write(path, content)
 
 

@@ -66,7 +66,7 @@ def parse(text: str) -> SceneData:
         )
     try:
         document = read_json(text)
-    except (ValueError, RecursionError) as cause:  # ValueError: also a number of thousands of digits
+    except ValueError as cause:
         raise SceneError(f'not JSON: {cause}. A scene file starts with {{"format": "{FORMAT}", ...}}.') from cause
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         looks_like_habitat = isinstance(document, dict) and {"stage_instance", "object_instances"} & document.keys()

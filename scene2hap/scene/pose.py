@@ -29,6 +29,7 @@ _FAR_FROM_UNIT = 0.1
 _DEGREES = 15.0
 _LAST_ROW = 1e-6
 _LEAST_SLANT = 1e-9  # below this sine, a target is straight above or below, and its heading is undefined
+_QUATERNION = "It is a quaternion (x, y, z, w); Pose.from_euler takes angles."
 
 
 @clear_construction
@@ -52,7 +53,7 @@ class Pose:
 
     def __post_init__(self) -> None:
         position = checks.vector("position_m", self.position_m, "m", size=3, error=SceneError)
-        rotation = checks.vector("rotation_xyzw", self.rotation_xyzw, "-", size=4, error=SceneError)
+        rotation = checks.vector("rotation_xyzw", self.rotation_xyzw, "-", size=4, error=SceneError, hint=_QUATERNION)
         length = math.hypot(*rotation)
         if length < LEAST_LENGTH:
             raise SceneError("rotation_xyzw has length 0; a rotation is a unit quaternion. Use (0, 0, 0, 1) for none.")

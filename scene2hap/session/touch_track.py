@@ -18,7 +18,7 @@ from scene2hap.common.calls import clear_attributes
 from scene2hap.common.counted import counted
 from scene2hap.common.csv_tables import csv_reader, with_point
 from scene2hap.common.files import read_small_text
-from scene2hap.common.json_fields import Flag, Real
+from scene2hap.common.json_fields import Flag, Real, Yes
 from scene2hap.common.json_texts import parse_json
 from scene2hap.errors import SessionError, reason_of
 from scene2hap.scene.limits import MAX_COORDINATE_M
@@ -63,7 +63,7 @@ class LiftStep(_Step):
     """A hand leaves its object."""
 
     hand: str
-    lift: Literal[True]
+    lift: Yes
 
 
 class MoveStep(_Step):
@@ -164,7 +164,7 @@ class TouchTrack(BaseModel):
         try:
             text = read_small_text(path)
             document = _from_csv(text) if path.suffix.lower() == ".csv" else parse_json(text)
-        except (OSError, ValueError, RecursionError, csv.Error) as cause:
+        except (OSError, ValueError, csv.Error) as cause:
             raise SessionError(f"{path} cannot be read as touches: {reason_of(cause)}. See docs/touches.md.") from cause
         return cls.parse(document, str(path))
 

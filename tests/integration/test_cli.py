@@ -253,6 +253,21 @@ def test_a_level_with_its_unit_is_explained(capsys: pytest.CaptureFixture[str], 
     assert "read as an option" not in said
 
 
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (("bake", "room.glb", "--unit-m", "1cm"), "'1cm' is no number; write it as 0.5, without a unit"),
+        (("bridge", "--port", "80a"), "'80a' is no whole number; write it as 5, without a unit"),
+    ],
+)
+def test_a_text_for_a_number_is_explained(
+    capsys: pytest.CaptureFixture[str], words: tuple[str, ...], says: str
+) -> None:
+    with pytest.raises(SystemExit):
+        main([*words])
+    assert capsys.readouterr().err.endswith(f"argument {words[-2]}: {says}\n")
+
+
 @pytest.mark.parametrize("words", [("inspect", "-x.glb"), ("edit", "some.bundle", "mute", "-fan")])
 def test_a_name_like_an_option_is_explained(capsys: pytest.CaptureFixture[str], words: tuple[str, ...]) -> None:
     with pytest.raises(SystemExit):

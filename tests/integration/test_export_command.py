@@ -223,6 +223,7 @@ def test_invalid_requests_get_an_error_and_write_nothing(
         ({"kind": "openxr_pcm", "sample_rate_hz": 0}, "sample_rate_hz is 0 Hz; it must be at least 100"),
         ({"kind": "ahap", "colour": 1}, "does not take"),
         ([], "it must name a kind"),
+        (out, "to is a path, '.*out'; it names kinds, as 'wav'. Give it as folder="),
     ):
         with pytest.raises(ConfigError, match=told):
             export_bundle(bundle, out, to)

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from scene2hap import plugins
+from scene2hap.devices import SINKS
 from scene2hap.errors import ConfigError, MissingExtra, UnknownPlugin
 from scene2hap.export import EXPORTS
 from scene2hap.llm import BACKENDS
@@ -43,6 +44,11 @@ def test_missing_extra_is_named() -> None:
 def test_wrong_settings_name_the_kind() -> None:
     with pytest.raises(ConfigError, match=r"'fraction' does not take \{'colour': 1\}"):
         GROUP.build({"kind": "fraction", "colour": 1})
+
+
+def test_a_kind_that_needs_settings_says_which() -> None:
+    with pytest.raises(ConfigError, match=r"'wav' needs settings, \{'kind': 'wav', ...\}: the setting path is missing"):
+        SINKS.build("wav")
 
 
 def test_settings_without_kind_are_refused() -> None:

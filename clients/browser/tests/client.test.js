@@ -578,3 +578,89 @@ test("who watches gets gains, sends none, and watches again", async () => {
   FakeSocket.last.answer("watch", { ...order, session: "77e1a09b", type: "watching" });
   assert.equal((await other).session, "77e1a09b");
 });
+
+test("a second play while the first is under way is refused, and the first comes back", async () => {
+  const client = makeClient();
+  client.connect();
+  await online();
+  const first = client.play({ bundle: "attic" });
+  await settled();
+  await assert.rejects(client.play({ bundle: "cellar" }), { kind: "BridgeError", message: /leave/ });
+  await assert.rejects(client.watch({ session: "77e1a09b" }), { kind: "BridgeError", message: /leave/ });
+  FakeSocket.last.answer("play", PLAYING);
+  await first;
+  FakeSocket.last.fail();
+  mock.timers.tick(250);
+  await online();
+  FakeSocket.last.answer("resume", { type: "error", error: "UnknownSession", message: "gone" });
+  await settled();
+  const [, , again] = FakeSocket.last.messages;
+  assert.deepEqual([again.type, again.bundle], ["play", "attic"]);
+});
+
+test("what is watched goes on if another session does not begin", async () => {
+  const client = makeClient();
+  client.connect();
+  await online();
+  const watching = client.watch({ session: "c2f1a09b" });
+  await settled();
+  const { key, sequence, ...order } = PLAYING;
+  FakeSocket.last.answer("watch", { ...order, type: "watching" });
+  await watching;
+  for (const [type, begin] of [
+    ["watch", () => client.watch({ session: "77e1a09b" })],
+    ["play", () => client.play({ bundle: "cellar" })],
+  ]) {
+    const other = begin();
+    await settled();
+    FakeSocket.last.answer(type, { type: "error", error: "UnknownSession", message: "gone" });
+    await assert.rejects(other, { kind: "UnknownSession" });
+    FakeSocket.last.bytes(gainsOf({ sequence: 5 })); // the server sends on
+    assert.deepEqual([client.gain("left", "phone"), client.order?.session], [0.5, "c2f1a09b"]);
+  }
+  FakeSocket.last.fail();
+  mock.timers.tick(250);
+  await online();
+  assert.deepEqual(
+    FakeSocket.last.messages.map(({ type, session }) => session ?? type),
+    ["hello", "c2f1a09b"],
+  );
+});
+
+test("of two sessions to watch the second is asked for when the first is answered", async () => {
+  const client = makeClient();
+  client.connect();
+  await online();
+  const first = client.watch({ session: "c2f1a09b" });
+  await settled();
+  const second = client.watch({ session: "77e1a09b" });
+  await settled();
+  const { key, sequence, ...order } = PLAYING;
+  FakeSocket.last.answer("watch", { ...order, type: "watching" });
+  await first;
+  await settled();
+  FakeSocket.last.answer("watch", { ...order, session: "77e1a09b", type: "watching" });
+  await second;
+  assert.equal(client.order?.session, "77e1a09b");
+  assert.deepEqual(
+    FakeSocket.last.messages.map(({ type, session }) => session ?? type),
+    ["hello", "c2f1a09b", "77e1a09b"],
+  );
+});
+
+test("a session that was left before its answer is not resumed", async () => {
+  const client = makeClient();
+  client.connect();
+  await online();
+  client.play({ bundle: "attic" });
+  await settled();
+  client.leave();
+  FakeSocket.last.answer("play", PLAYING); // and the connection is lost before "left" comes
+  FakeSocket.last.fail();
+  mock.timers.tick(250);
+  await online();
+  assert.deepEqual(
+    FakeSocket.last.messages.map(({ type }) => type),
+    ["hello"],
+  );
+});

@@ -13,7 +13,7 @@ from scene2hap.audio.files import SUFFIXES, read_clip
 from scene2hap.audio.select import MIN_DURATION_S
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES
 from scene2hap.audio.sources.disk_cache import is_long_enough
-from scene2hap.audio.sources.word_stems import joined_stems, noun_phrase, says_nothing, stems
+from scene2hap.audio.sources.word_stems import is_anything, joined_stems, noun_phrase, says_nothing, stems
 from scene2hap.common import checks
 from scene2hap.common.csv_tables import csv_reader
 from scene2hap.common.files import read_small_text
@@ -68,7 +68,7 @@ class FolderLibrary:
             # Of a "boiling pot", the verb is a word of the name as well.
             return not is_own, not doing & (words - own if is_own else words)
 
-        names = [name for name in (own, head) if name]
+        names = [name for name in (own, head) if not all(map(is_anything, name))]
         matches = [entry for entry in self._entries() if any(name <= entry[1] for name in names)]
         matches.sort(key=lambda match: (*rank(match[1]), -len(wanted & match[1]), match[0].as_posix()))
         found: list[AudioClip] = []

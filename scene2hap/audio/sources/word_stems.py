@@ -45,8 +45,9 @@ _SAME_THING = {
     "washing machine": "washer",
 }
 
+_ANYTHING = "box item object part piece thing"
 _SAYS_NOTHING = (
-    "appliance cleaner device equipment gadget instrument item machine maker object player system thing tool unit"
+    f"{_ANYTHING} appliance cleaner device equipment gadget instrument machine maker player system tool unit"
 )
 
 _AFTER_THE_HEAD = re.compile(r"\b(?:of|on|in|with|for|at|from|to|by|under|near)\b|[(,;:/]")
@@ -80,7 +81,12 @@ def noun_phrase(category: str) -> tuple[str, ...]:
 
 def says_nothing(word: str) -> bool:
     """Return True if a word, or its stem, names no kind of thing by itself: "machine" may be any machine."""
-    return _stem(word.lower()) in _empty_stems()
+    return _stem(word.lower()) in _stems_of(_SAYS_NOTHING)
+
+
+def is_anything(word: str) -> bool:
+    """Return True if a word, or its stem, alone matches no other name: "Box_01" may be anything, but no "box fan"."""
+    return _stem(word.lower()) in _stems_of(_ANYTHING)
 
 
 def spelled_phrase(category: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -101,8 +107,8 @@ def _spelled(text: str) -> list[str]:
 
 
 @cache
-def _empty_stems() -> frozenset[str]:
-    return frozenset(map(_stem, _SAYS_NOTHING.split()))
+def _stems_of(words: str) -> frozenset[str]:
+    return frozenset(map(_stem, words.split()))
 
 
 @cache

@@ -12,7 +12,9 @@ import re
 from typing import Annotated, ClassVar, Self, TypeVar
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
+from pydantic_core import InitErrorDetails, PydanticCustomError
 
+from scene2hap.common.json_texts import RepeatedKey, parse_json
 from scene2hap.haptics import LONGEST_TURN_S
 
 MOST_WORDS_IN_SENTENCE = 15
@@ -137,8 +139,9 @@ def read_answer(shape: type[AnswerType], text: str) -> AnswerType:
     """Read an answer from its JSON. Fields that it should not have are left out, since they do no harm.
 
     Models add comments and sources where no server enforces the schema, and would add them again after a repair.
-    Raises: pydantic.ValidationError: a field is missing or wrong.
+    Raises: pydantic.ValidationError: a field is missing, wrong, or given twice.
     """
+    _require_each_key_once(shape, text)
     try:
         return shape.model_validate_json(text)
     except ValidationError as error:
@@ -152,3 +155,15 @@ def read_answer(shape: type[AnswerType], text: str) -> AnswerType:
             owner = owner[step]
         del owner[name]
     return shape.model_validate_json(json.dumps(fields))
+
+
+def _require_each_key_once(shape: type[Answer], text: str) -> None:
+    """Raise a ValidationError, so that the model is asked again, if a key is given twice: which value is right?"""
+    try:
+        parse_json(text)
+    except RepeatedKey as found:
+        problem = PydanticCustomError("given_twice", "the field is given twice; give it once")
+        details = InitErrorDetails(type=problem, loc=(found.key,), input=None)
+        raise ValidationError.from_exception_data(shape.__name__, [details]) from None
+    except ValueError:
+        pass  # pydantic names the mistake

@@ -242,7 +242,7 @@ def _rows(index: Path) -> list[Any]:
         rows = parse_json(read_small_text(index))
     except OSError as cause:
         raise SceneError(f"{quoted(index)} cannot be read: {cause.strerror}. Give the folder that holds it.") from cause
-    except (ValueError, RecursionError) as cause:
+    except ValueError as cause:
         raise SceneFormatError(f"{quoted(index)} is no JSON that can be read: {reason_of(cause)}.") from cause
     if not isinstance(rows, list):
         raise SceneFormatError(f"{quoted(index)} holds {checks.described(rows)}; it must be a list of pictures.")

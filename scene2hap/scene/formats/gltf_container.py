@@ -187,7 +187,7 @@ def _header(text: bytes) -> Json:
     """Parse the header and check it. Tables that geometry needs are added if missing; their rows must be objects."""
     try:
         header = read_json(text.decode("utf-8-sig"))
-    except (ValueError, RecursionError) as cause:
+    except ValueError as cause:
         raise SceneFormatError(f"not glTF: its JSON cannot be read: {cause}.") from cause
     if not isinstance(header, dict):
         raise SceneFormatError(f"not glTF: its JSON is a {type(header).__name__}, not an object.")

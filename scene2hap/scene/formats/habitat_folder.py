@@ -151,7 +151,7 @@ def read_object(file: Path) -> Json:
         document = read_json(read_bytes(file).decode("utf-8-sig"))
     except SceneError:
         raise
-    except (ValueError, RecursionError) as cause:  # ValueError: also text that is not UTF-8
+    except ValueError as cause:  # also text that is not UTF-8
         raise SceneFormatError(f"{file.name!r} is not JSON: {cause}.") from cause
     if not isinstance(document, dict):
         raise SceneFormatError(f"{file.name!r} holds a {type(document).__name__}; it must be a JSON object.")

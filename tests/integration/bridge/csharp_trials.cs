@@ -21,6 +21,7 @@ public static class CSharpTrials
             case "play-until-felt": return Play(arguments[1], 60, 1);
             case "play-until-outdated": return Play(arguments[1], 60, 2);
             case "watch": return Watch(arguments[1]);
+            case "watch-left": return WatchUntilLeft(arguments[1]);
             case "watch-cut": return WatchUntilCut(arguments[1]);
             case "requests": return Requests(arguments[1]);
             case "levels": return Levels(arguments[1]);
@@ -68,7 +69,7 @@ public static class CSharpTrials
         return isTrue();
     }
 
-    /// <summary>One client plays and another watches: twice, with a session between them that does not exist.</summary>
+    /// <summary>One client plays and another watches: twice, and between them sessions that do not begin.</summary>
     static int Watch(string url)
     {
         using (Client player = Printing(url), watcher = new Client(url))
@@ -88,7 +89,13 @@ public static class CSharpTrials
             bool isRefused = false;
             watcher.RequestFailed += (type, message) => isRefused = true;
             Until(() => isRefused, player, watcher);
-            Say("state {0}", watcher.State);
+            Goes(player, watcher);
+            isRefused = false;
+            watcher.Play(new PlayOptions { Bundle = "cellar.bundle" });
+            Until(() => isRefused, player, watcher);
+            Goes(player, watcher);
+            watcher.Leave();
+            Say("state {0} {1}", watcher.State, watcher.Intensity("left"));
             watcher.Watch(player.SessionId);
             Say("watches {0} {1}", Until(() => watcher.Intensity("left") > 0, player, watcher), watcher.State);
             player.Leave();
@@ -97,6 +104,32 @@ public static class CSharpTrials
             bool hasLeft = false;
             player.Left += () => hasLeft = true;
             Until(() => hasLeft, player);
+        }
+        return 0;
+    }
+
+    /// <summary>Say whether who watches still gets gains.</summary>
+    static void Goes(Client player, Client watcher)
+    {
+        Stopwatch clock = Stopwatch.StartNew();
+        Until(() => clock.Elapsed.TotalSeconds > 0.5, player, watcher); // longer than gains from before count
+        Say("goes {0} {1}", Until(() => watcher.Intensity("left") > 0, player, watcher), watcher.State);
+    }
+
+    /// <summary>Leave before the server refuses a second session to watch.</summary>
+    static int WatchUntilLeft(string url)
+    {
+        using (Client client = Printing(url))
+        {
+            client.Watch("c2f1a09b");
+            client.Connect();
+            Until(() => client.State == ClientState.Watching, client);
+            bool hasLeft = false;
+            client.Left += () => hasLeft = true;
+            client.Watch("77e1a09b");
+            client.Leave();
+            Until(() => hasLeft, client);
+            Say("state {0}", client.State);
         }
         return 0;
     }

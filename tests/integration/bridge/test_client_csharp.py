@@ -284,7 +284,10 @@ def test_one_client_watches_another(trial: Callable[..., list[str]]) -> None:
         "watches True Watching",
         "sends False",
         "error watch: UnknownSession",
-        "state Ready",
+        "goes True Watching",
+        "error play: BridgeError",
+        "goes True Watching",
+        "state Ready 0",
         "started",
         "watches True Watching",
         "watched ended",
@@ -310,6 +313,28 @@ def test_who_watched_has_left_if_the_connection_is_lost_before_the_answer(trial:
         lines = trial("watch-cut", url)
     assert [line for line in lines if not line.startswith("error")] == ["started", "left"]
     assert types == ["hello", "watch", "leave", "hello"]
+
+
+def test_who_leaves_before_a_second_watch_is_refused_leaves_the_first(trial: Callable[..., list[str]]) -> None:
+    asked: list[str] = []
+
+    def take(connection: ServerConnection, message: str | bytes) -> None:
+        document = json.loads(message)
+        asked.append(document.get("session", document["type"]))
+        if asked[-1] == "c2f1a09b":
+            connection.send(order("watching", 1, re=document["id"]))
+        elif asked[-1] == "77e1a09b":
+            error = {"type": "error", "error": "UnknownSession", "message": "gone", "re": document["id"]}
+            connection.send(json.dumps(error))
+        elif asked[-1] == "leave":
+            connection.send(json.dumps({"type": "left", "re": document["id"]}))
+        else:
+            answer_as_desk(connection, document)
+
+    with mock(take) as url:
+        lines = trial("watch-left", url)
+    assert [line for line in lines if not line.startswith("error")] == ["started", "left", "state Ready"]
+    assert asked == ["hello", "c2f1a09b", "77e1a09b", "leave"]
 
 
 def test_missing_server_does_not_block_frames(trial: Callable[..., list[str]]) -> None:

@@ -5,6 +5,7 @@ import json
 import os
 import random
 import re
+import shutil
 import signal
 import socket
 import struct
@@ -116,6 +117,45 @@ def test_pages_of_foreign_origins_are_refused(bridge: Bridge) -> None:
     for origin in ("http://localhost:8000", "http://127.0.0.1", "http://[::1]:3000", "https://game.example"):
         with Client(url, additional_headers={"Origin": origin}) as client:
             assert client.welcome["type"] == "welcome"
+
+
+@pytest.mark.parametrize(
+    ("request_", "says"),
+    [
+        ({"type": "play", "bundle": "cut.bundle"}, "cut.bundle/loops.json cannot be read"),
+        ({"type": "play", "bundle": "silent.bundle"}, r"silent.bundle lacks sounds/"),
+        ({"type": "play", "bundle": "mine"}, r"mine has no bundle.json"),
+        ({"type": "play", "bundle": "room.glb"}, "'room.glb' is a file; a bundle is a folder"),
+        ({"type": "bake", "path": "mine"}, "'mine' is not a file"),
+        ({"type": "bake", "path": "hut.glb"}, "there is no file 'hut.glb'"),
+        ({"type": "bake", "path": "room.glb", "save": "mine"}, "mine is not empty and not a bundle"),
+        ({"type": "bake", "path": "room.glb", "save": "room.glb/x"}, "room.glb/x cannot be written: room.glb is no"),
+    ],
+)
+def test_an_error_names_a_file_as_the_client_did(
+    bridge: Bridge, root: Path, request_: dict[str, Any], says: str
+) -> None:
+    for name in ("cut.bundle", "silent.bundle"):
+        shutil.copytree(root / "desk.bundle", root / name)
+    (root / "cut.bundle" / "loops.json").write_text("{")
+    shutil.rmtree(root / "silent.bundle" / "sounds")
+    (root / "mine").mkdir()
+    (root / "mine" / "work.txt").write_text("mine")
+    (root / "room.glb").write_text("no GLB")
+    with Client(bridge().url) as client:
+        client.socket.send(json.dumps(request_))
+        with pytest.raises(Refused, match=says) as refused:
+            client.hear(lambda one: one["type"] == "error")
+    assert str(root) not in str(refused.value)
+
+
+def test_only_the_root_itself_is_left_out_of_messages(root: Path) -> None:
+    host = Host(BridgeConfig(root=root), owns_process=False)
+    assert host.as_told(f"{root} and {root}. {root}/a {root}//b") == "the bridge's root and the bridge's root. a b"
+    beside = f"{root}2/a {root}-old {root}.bak"
+    assert host.as_told(beside) == beside
+    for config in (BridgeConfig(root=Path("/")), BridgeConfig()):
+        assert Host(config, owns_process=False).as_told(beside) == beside
 
 
 LINK = pytest.param("link/x", marks=needs_links)
@@ -270,7 +310,7 @@ def test_a_play_without_the_sink_that_fails_does_not_free_it(root: Path) -> None
     async def two() -> None:
         host = Host(BridgeConfig(root=root, sink="memory"), owns_process=False)
         assert await host.take_sink() == "memory"  # of a session that is made
-        client = BridgeClient(SentPictures(lambda: root))
+        client = BridgeClient(SentPictures(lambda: root), host.as_told)
         with pytest.raises(ConfigError, match="hands"):
             await answer(Play(type="play", bundle="desk.bundle", hands=["left", "left"], use_sink=False), client, host)
         with pytest.raises(BridgeError, match="another session plays on the sink"):

@@ -31,7 +31,7 @@ def test_a_client_that_is_gone_watches_nothing_and_leaves_no_pictures(tmp_path: 
     picture = encode_picture(json.dumps(about).encode(), file.getvalue())
 
     async def scenario() -> None:
-        host = SimpleNamespace(jobs=SimpleNamespace(folder=tmp_path))
+        host = SimpleNamespace(jobs=SimpleNamespace(folder=tmp_path), as_told=str)
         connection = Connection(cast("Any", ClosedSocket()), cast("Any", host))
         client = connection.client
         watched: Any = SimpleNamespace(watchers={client})

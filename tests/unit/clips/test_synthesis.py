@@ -82,6 +82,8 @@ def test_wrong_curves_are_refused() -> None:
         Curve(np.array([1.0, 0.5]), np.array([0.0, 0.0]))
     with pytest.raises(ClipError, match="give one value for each time"):
         Curve(np.array([]), np.array([]))
+    with pytest.raises(ClipError, match="values of a curve is not a table of numbers: it has True"):
+        Curve([0.0, 1.0], [0.5, True])
     with pytest.raises(ClipError, match="a clip must be longer than 0 s"):
         HapticClip(Curve(np.array([0.0]), np.array([1.0])))
     with pytest.raises(ClipError, match="in order of time"):

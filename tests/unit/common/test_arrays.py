@@ -1,6 +1,8 @@
 """Arrays that users and files give."""
 
 from contextvars import copy_context
+from fractions import Fraction
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -8,6 +10,17 @@ import pytest
 from scene2hap.common import checks
 from scene2hap.common.arrays import floats
 from scene2hap.errors import SceneError
+
+
+class Point(NamedTuple):
+    x: float | None
+    y: float
+    z: float
+
+
+class Pair(NamedTuple):
+    x: float
+    y: float
 
 
 @pytest.mark.parametrize(
@@ -22,6 +35,13 @@ from scene2hap.errors import SceneError
         ([{"x": 0}], "it has a dict"),
         (None, "it has None"),
         (np.array([True]), "bool is no type of real numbers"),
+        (np.array([[0.0, None]], dtype=object), "it has None"),
+        (np.array([True, 1.0], dtype=object), "it has True"),
+        (np.array(["1"], dtype=object), "it has '1'"),
+        ([np.array([0.0, None]), [1.0, 2.0]], "it has None"),
+        ([Point(None, 0.0, 0.0), Point(1.0, 0.0, 0.0)], "it has None"),
+        ([Point(True, 0.0, 0.0)], "it has True"),
+        ([Point(0.0, 0.0, 0.0), [1.0, 2.0]], "its rows are not equally long"),
     ],
 )
 def test_what_is_no_number_is_refused(value: object, reason: str) -> None:
@@ -37,7 +57,15 @@ def test_a_list_that_holds_itself_is_refused() -> None:
 
 
 @pytest.mark.parametrize(
-    "value", [[[1, 2.0], (3, np.float32(4))], [[1, 2], np.array([3, 4])], [np.array([1, 2]), [3, 4]], [[], []]]
+    "value",
+    [
+        [[1, 2.0], (3, np.float32(4))],
+        np.array([[1, Fraction(2)], [3, 4.0]], dtype=object),
+        [Pair(1, 2), [3, 4]],
+        [[1, 2], np.array([3, 4])],
+        [np.array([1, 2]), [3, 4]],
+        [[], []],
+    ],
 )
 def test_lists_of_numbers_and_arrays_are_taken(value: list[object]) -> None:
     found = floats("points", value, "m", error=SceneError)

@@ -57,6 +57,7 @@ def test_error_sends_a_setting_to_the_configuration() -> None:
     def bake(scene: object, config: object = None) -> None: ...
 
     assert "config={'llm': ...}" in misfit(bake, (1,), {"llm": "lexicon"})
+    assert "Did you mean 'scene'? If it is a setting, write config={'scne': ...}." in misfit(bake, (1,), {"scne": 1})
     assert misfit(bake, (1,), {"config": 2}) == ""
     assert misfit(int, (1, 2, 3), {}) == "", "of C, which tells no signature"
 

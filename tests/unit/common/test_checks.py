@@ -74,3 +74,8 @@ def test_one_item_without_its_list_is_an_error() -> None:
         checks.instances("sizes", 1.5, float, "a list of float", error=SceneError)
     assert checks.instances("sizes", iter([1.5, 2.5]), float, "a list of float", error=SceneError) == (1.5, 2.5)
     assert checks.instances("sizes", (), float, "a list of float", error=SceneError) == ()
+
+
+def test_an_empty_text_is_no_path() -> None:
+    with pytest.raises(SceneError, match="folder is ''; it must be a path. Name one."):
+        checks.path("folder", "", error=SceneError, hint="Name one.")

@@ -56,6 +56,8 @@ def test_a_wrong_value_is_an_error_in_plain_words(settings: type[Settings]) -> N
             "bake setting cache_dir: it must be a path, as a text or a pathlib.Path, got 3.",
         ),
         (BakeConfig, {"seed": 1e300}, "bake setting seed: it is too large, got 1e+300."),
+        (SessionConfig, {"impacts": 1}, "session setting impacts: it must be true or false, got 1."),
+        (SessionConfig, {"impacts": "no"}, "session setting impacts: it must be true or false, got 'no'."),
         (SessionConfig, {"skip": {1: True}}, "session setting skip.1: a name must be a text."),
         (
             UserProfile,

@@ -122,9 +122,10 @@ def test_a_child_that_was_forked_meanwhile_does_not_hold_the_lock(tmp_path: Path
     assert run.stdout == "True\n"
 
 
-def test_a_missing_folder_is_an_error(tmp_path: Path) -> None:
-    with DraftSet() as drafts, pytest.raises(FileNotFoundError):
-        drafts.write(tmp_path / "gone" / "a.wav", b"half")
+def test_a_folder_that_cannot_be_made_is_an_error(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with DraftSet() as drafts, pytest.raises(OSError):
+        drafts.write(tmp_path / "file" / "a.wav", b"half")
 
 
 @pytest.mark.parametrize("name", ["n" * 251 + ".wav", "\u00fc" * 125 + ".json", "n" * 255])
@@ -133,3 +134,20 @@ def test_the_longest_names_that_a_file_may_have_are_written(tmp_path: Path, name
         drafts.write(tmp_path / name, b"half")
         assert len(names(tmp_path)) == 1
     assert names(tmp_path) == []
+
+
+def test_folders_of_a_failed_set_are_removed_unless_another_needs_them(tmp_path: Path) -> None:
+    with pytest.raises(RuntimeError), DraftSet() as drafts:
+        drafts.write(tmp_path / "out" / "wav" / "a.wav", b"half")
+        raise RuntimeError
+    assert list(tmp_path.iterdir()) == []
+    (tmp_path / "mine").mkdir()
+    with DraftSet() as other:
+        with DraftSet() as drafts:
+            drafts.write(tmp_path / "mine" / "wav" / "a.wav", b"half")
+            drafts.write(tmp_path / "shared" / "a.wav", b"half")
+            other.write(tmp_path / "shared" / "b.wav", b"half")
+        other.write(tmp_path / "shared" / "c.wav", b"half")
+        for draft, path in other.drafts:
+            draft.rename(path)
+    assert sorted(path.name for path in tmp_path.rglob("*")) == ["b.wav", "c.wav", "mine", "shared"]

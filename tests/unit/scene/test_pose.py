@@ -157,3 +157,8 @@ def test_a_transposed_matrix_and_one_with_perspective_are_refused() -> None:
     assert Pose.from_matrix(matrix.T).position_m == (1.0, 2.0, 3.0)
     with pytest.raises(SceneError, match=r"\(0.0, 0.0, 0.5, 1.0\) in its last row"):
         Pose.from_matrix([*np.eye(4)[:3], (0.0, 0.0, 0.5, 1.0)])
+
+
+def test_angles_for_a_quaternion_are_explained() -> None:
+    with pytest.raises(SceneError, match=r"must be 4 numbers. It is a quaternion .*; Pose.from_euler takes angles"):
+        Pose((0.0, 0.0, 0.0), (0.0, 90.0, 0.0))

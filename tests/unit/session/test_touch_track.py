@@ -125,6 +125,7 @@ def test_a_hand_goes_along_with_the_object_it_holds() -> None:
         (changed(2, point_m=[1, 2]), r"step 3, point_m"),
         (changed(0, colour="red"), r"step 1, colour"),
         (changed(1, point_m=[1, True, 2]), r"step 2, point_m\.1: it must be a number.*, got True"),
+        (changed(5, lift=1), r"step 6: lift must be true, got 1"),
         (changed(0, time_s="0.5"), r"step 1, time_s: it must be a number.*, got '0\.5'"),
         ({**DOCUMENT, "duration_s": True}, r"duration_s: it must be a number.*, got True"),
         (changed(1, point_m=[1, float("nan"), 2]), r"step 2, point_m\.1: .*finite"),

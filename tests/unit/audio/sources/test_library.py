@@ -43,6 +43,14 @@ def test_library_orders_files_by_shared_words(tmp_path: Path) -> None:
     assert titles(tmp_path, "computer fan", "computer fan") == ["computer-fan-hum", "Computer_Fans", "fan_1"]
 
 
+def test_a_word_for_anything_finds_nothing_by_itself(tmp_path: Path) -> None:
+    fill(tmp_path, "box fan.wav", "music box.wav", "sewing machine.wav", "gift box shaking.wav")
+    assert titles(tmp_path, "box", "box shaking") == []
+    assert titles(tmp_path, "object", "box shaking") == []
+    assert titles(tmp_path, "music box", "music box playing") == ["music box"]
+    assert titles(tmp_path, "gift box", "gift box shaking") == ["gift box shaking"]
+
+
 def test_sounds_with_the_authors_word_come_alone(tmp_path: Path) -> None:
     """In an earlier version only the type was searched, so that a windmill did not find its file."""
     fill(tmp_path, "windmill creaking.wav", "wind turbine whirring.wav", "water mill.wav")

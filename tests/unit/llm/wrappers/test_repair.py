@@ -49,6 +49,13 @@ def test_modulus_in_pascal_is_requested_again_and_never_rescaled() -> None:
     assert "pascal or megapascal? give gigapascal" in inner.requests[1].prompt
 
 
+def test_a_field_that_is_given_twice_is_requested_again() -> None:
+    inner = scripted(oak().replace("{", '{"density_kg_m3": 7850.0, ', 1), oak())
+    reply = asyncio.run(RepairBackend(inner).complete(ASKED))
+    assert json.loads(reply.text) == OAK
+    assert "density_kg_m3: the field is given twice; give it once" in inner.requests[1].prompt
+
+
 @pytest.mark.parametrize("wrong", ["2700 kg/m^3", "about 700", 0.0, 30000.0, None, float("nan")])
 def test_invalid_numbers_are_requested_again_without_images(wrong: Any) -> None:
     inner = scripted(oak(density_kg_m3=wrong), oak())
