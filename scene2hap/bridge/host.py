@@ -59,9 +59,12 @@ class Host:
         folders = {self.config.root: "the bridge's root", self.jobs.temporary: "a temporary folder of the bridge"}
         for folder, name in folders.items():
             # A root of / would be found everywhere. `repr` doubles each backslash of a path of Windows.
-            for spelled in () if folder is None or folder == folder.parent else {str(folder), repr(str(folder))[1:-1]}:
-                message = re.sub(rf"{re.escape(spelled)}[/\\]+", "", message)
-                message = re.sub(rf"{re.escape(spelled)}(?![\w-]|\.\w)", name, message)
+            if folder is None or folder == folder.parent:
+                continue
+            for spelled in {str(folder), repr(str(folder))[1:-1], folder.as_posix()}:
+                here = rf"(?<![\w.-]){re.escape(spelled)}"  # not within another path, as /srv in /data/srv
+                message = re.sub(rf"{here}[/\\]+", "", message)
+                message = re.sub(rf"{here}(?![\w-]|\.\w)", name, message)
         return message
 
     def hosted(self, session_id: str) -> HostedSession:

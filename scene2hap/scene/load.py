@@ -217,7 +217,7 @@ def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float
     objects = list(map(maker.make, unique_ids([item.name for item in groups]), groups))
     by_key = {each.key: item for each, item in zip(groups, objects, strict=True) if each.key}
     held = hinges(by_key, authored.pivots, unit_m)
-    objects = [replace(item, hinge=held.get(item.id)) for item in objects]
+    objects = [replace(item, hinge=held[item.id]) if item.id in held else item for item in objects]
     return SceneSnapshot(name, up_axis, with_relative_heights(objects, up_axis))
 
 

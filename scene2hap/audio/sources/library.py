@@ -53,7 +53,8 @@ class FolderLibrary:
         Sounds with the author's word for the object come first, then those that also name what the object does. If one
         of them is long enough to be chosen, sounds that say less are left out. A sound with the right verb but another
         object does not match: a boiling kettle is no boiling pan. Nor does one that shares only a word for anything: a
-        sewing machine is no vending machine. Sounds that are too short come last, as rows for the table of the choice.
+        sewing machine is no vending machine, and of a "box" only sounds without other words match, such as "box
+        shaking". Sounds that are too short come last, as rows for the table of the choice.
         Raises: ConfigError: see `FolderLibrary`.
         Warns: UnreadableSound: a file that cannot be read was skipped; ShortSound: no sound is long enough.
         """
@@ -68,8 +69,13 @@ class FolderLibrary:
             # Of a "boiling pot", the verb is a word of the name as well.
             return not is_own, not doing & (words - own if is_own else words)
 
-        names = [name for name in (own, head) if not all(map(is_anything, name))]
-        matches = [entry for entry in self._entries() if any(name <= entry[1] for name in names)]
+        said = _words(f"{description.own_word} {description.keywords} {description.object_category}")
+        names = [(name, all(map(is_anything, name))) for name in (own, head) if name]
+        matches = [
+            entry
+            for entry in self._entries()
+            if any(name <= entry[1] and (entry[1] <= said or not may_be_any) for name, may_be_any in names)
+        ]
         matches.sort(key=lambda match: (*rank(match[1]), -len(wanted & match[1]), match[0].as_posix()))
         found: list[AudioClip] = []
         short: list[AudioClip] = []

@@ -85,7 +85,7 @@ def says_nothing(word: str) -> bool:
 
 
 def is_anything(word: str) -> bool:
-    """Return True if a word, or its stem, alone matches no other name: "Box_01" may be anything, but no "box fan"."""
+    """Return True if a word, or its stem, may be any object: "Box_01" may be anything, but no "box fan"."""
     return _stem(word.lower()) in _stems_of(_ANYTHING)
 
 

@@ -90,7 +90,7 @@ def snapshot(
         raise SceneError(f"{why}; nothing in it can be touched.")
     of_body = {str(item.body): made for item, made in zip(items.all, objects, strict=True) if item.body != WORLD}
     held = hinges(of_body, pivots(_joints(model, data), of_body), metres)
-    objects = [replace(made, hinge=held.get(made.id)) for made in objects]
+    objects = [replace(made, hinge=held[made.id]) if made.id in held else made for made in objects]
     touching = None if contacts is None else contacts_of(model, contact_points(data), items, metres)
     title = name or model.names[: model.names.index(b"\0")].decode("utf-8", "replace") or "mujoco"
     scene = SceneSnapshot(title, "z", with_relative_heights(objects, "z"), touching)

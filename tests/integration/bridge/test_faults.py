@@ -152,7 +152,7 @@ def test_an_error_names_a_file_as_the_client_did(
 def test_only_the_root_itself_is_left_out_of_messages(root: Path) -> None:
     host = Host(BridgeConfig(root=root), owns_process=False)
     assert host.as_told(f"{root} and {root}. {root}/a {root}//b") == "the bridge's root and the bridge's root. a b"
-    beside = f"{root}2/a {root}-old {root}.bak"
+    beside = f"{root}2/a {root}-old {root}.bak /data{root.as_posix()} /data{root.as_posix()}/a"
     assert host.as_told(beside) == beside
     for config in (BridgeConfig(root=Path("/")), BridgeConfig()):
         assert Host(config, owns_process=False).as_told(beside) == beside

@@ -51,6 +51,15 @@ def test_a_word_for_anything_finds_nothing_by_itself(tmp_path: Path) -> None:
     assert titles(tmp_path, "gift box", "gift box shaking") == ["gift box shaking"]
 
 
+def test_a_sound_that_says_no_more_than_a_word_for_anything_is_found(tmp_path: Path) -> None:
+    fill(tmp_path, "box fan.wav", "Box_01.wav", "box shaking.wav", "music box shaking.wav", "shaking.wav")
+    assert titles(tmp_path, "box", "box shaking") == ["box shaking"]
+    assert titles(tmp_path, "box", "box humming") == ["Box_01"]
+    fill(tmp_path, "HummingBox.wav")
+    assert titles(tmp_path, "box", "box humming") == ["HummingBox"]
+    assert titles(tmp_path, "item", "item humming") == []
+
+
 def test_sounds_with_the_authors_word_come_alone(tmp_path: Path) -> None:
     """In an earlier version only the type was searched, so that a windmill did not find its file."""
     fill(tmp_path, "windmill creaking.wav", "wind turbine whirring.wav", "water mill.wav")
