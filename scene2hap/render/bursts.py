@@ -39,7 +39,7 @@ attack) [s]."""
 
 LEAST_SUM = 0.25
 """Lower bound of the peak of a sum of waves with positive weights, relative to the largest weight [-]. They begin in
-phase: the weakest sum that an optimiser found had 0.47."""
+phase: the weakest sum that an optimiser found had 0.45."""
 
 
 @lru_cache(maxsize=256)
