@@ -28,6 +28,7 @@ from scene2hap import (
 )
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.bodies import many_joints
+from scene2hap.propagation.bodies.inclined_body import inclined
 from scene2hap.propagation.bodies.lattice_body import lattice_body
 from scene2hap.propagation.bodies.modal_body import ModalBody, modal_body
 from scene2hap.propagation.bodies.rigid import RigidMotion
@@ -99,9 +100,17 @@ def test_a_body_with_hundreds_of_contacts_equals_lapack(
     monkeypatch.setattr(large_body, "is_faster", lambda *args: False)
     expected = ModalPlate().prepare(scene, SOURCES, bands)
     assert sum(sizes) == len(expected.sampling.frequencies_hz)
+    monkeypatch.undo()
+    sizes.clear()
+    monkeypatch.setattr(coupling, "AT_ONCE_BYTES", 3 * 10**5)
+    solve = large_body.solve
+    monkeypatch.setattr(large_body, "solve", lambda *args: sizes.append(args[4].shape[1]) or solve(*args))
+    by_parts = ModalPlate().prepare(scene, SOURCES, bands)
+    assert len(sizes) > 1, "the receptances of the other bodies are bounded too"
     for object_id in ("floor", "crate 3", "crate 7"):
-        one, other = (field.attenuation(object_id, TOUCHED_M) for field in (found, expected))
+        one, two, other = (field.attenuation(object_id, TOUCHED_M) for field in (found, by_parts, expected))
         np.testing.assert_allclose(one, other, rtol=1e-9)
+        np.testing.assert_allclose(two, other, rtol=1e-9)
         assert other.all()
 
 
@@ -125,6 +134,29 @@ def test_points_that_stay_keep_their_terms_to_the_last_bit() -> None:
         few = len(products)
         ModalBody(FLOOR, 200.0, 0.01).separated(one_moved, F_HZ)
     assert few < 0.4 * (len(products) - few)
+
+
+def test_a_plate_that_is_pushed_along_its_plane_alone_is_not_separated() -> None:
+    """None of its contacts bends it, so that it has no modes to be solved by."""
+    ports = np.zeros((300, 6))
+    ports[:, 0], ports[:, 4] = np.linspace(0.1, 5.9, 300), 1.0
+    body = inclined(FLOOR, modal_body(FLOOR, 200.0, 0.01))
+    assert body.separated(ports, F_HZ) is None
+    ports[7, 4:] = 0.0, 1.0
+    assert body.separated(ports, F_HZ) is not None
+
+
+def test_several_objects_may_touch_a_plate_at_the_same_points() -> None:
+    """As boxes side by side do at their corners."""
+    once = np.random.default_rng(3).uniform((0.0, 0.0), (6.0, 5.0), (100, 2))
+    begins = next(point for point in once if many_joints.parts_of(np.stack([once[0], point]))[1:])
+    points = np.concatenate([once[:60], [begins, begins, begins, begins], once])
+    body, alone = (ModalBody(FLOOR, 200.0, 0.01) for _ in range(2))
+    among = body.receptance(points, points, F_HZ)
+    np.testing.assert_allclose(among, alone.receptance(points, points.copy(), F_HZ), rtol=1e-9, atol=1e-16)
+    for now in (points[:-30], points):
+        found, expected = (one.separated(now, F_HZ) for one in (body, ModalBody(FLOOR, 200.0, 0.01)))
+        np.testing.assert_array_equal(found.smooth, expected.smooth)
 
 
 @pytest.mark.parametrize("body", [modal_body(FLOOR, 200.0, 0.01), lattice_body(FLOOR, 8, 200.0, 0.01)])

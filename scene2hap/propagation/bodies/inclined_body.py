@@ -146,7 +146,9 @@ class InclinedBody(SpatialBody):
     def separated(self, points_m: Floats, frequencies_hz: Floats) -> SeparatedReceptance | None:
         """See `Separable`."""
         rows, places, normal = _bending(points_m)
-        bent = self.bending.separated(places, frequencies_hz) if isinstance(self.bending, Separable) else None
+        if not rows.size or not isinstance(self.bending, Separable):
+            return None
+        bent = self.bending.separated(places, frequencies_hz)
         if bent is None:
             return None
         n, (_, n_modes), n_smooth = len(points_m), bent.shapes.shape, bent.smooth.shape[2]

@@ -74,13 +74,13 @@ class TermsAmong:
     """Terms of a plate among many points.
 
     shapes : (n, n_modes); smooth : (n, n, N_NODES) terms that are no modes, symmetric; pushed : the plate under forces
-    at each part of the points; begins : index of each part by its points.
+    at each part of the points; known : index and forces of each part by its points, which may be repeated.
     """
 
     shapes: Floats
     smooth: Floats
     pushed: Sequence[ForcedPlate]
-    begins: Mapping[bytes, int]
+    known: Mapping[bytes, tuple[int, ForcedPlate]]
 
     @property
     def nbytes(self) -> int:
@@ -98,12 +98,13 @@ class TermsAmong:
         """Compute the terms, with those of the parts that `last` has too. They are the same to the last bit: each
         product is of two parts alone."""
         n, parts = len(points_m), parts_of(points_m)
-        begins = {points_m[part].tobytes(): part.start for part in parts}
-        known = {} if last is None else dict(zip(last.begins, last.pushed, strict=True))
+        keys = [points_m[part].tobytes() for part in parts]
+        known = {} if last is None else last.known
+        before = [known[key][0] if key in known else -1 for key in keys]
         pushed = [
-            known.get(key) or plate.of_forces(points_m[part].copy()) for key, part in zip(begins, parts, strict=True)
+            known[key][1] if key in known else plate.of_forces(points_m[part].copy())
+            for key, part in zip(keys, parts, strict=True)
         ]
-        before = [-1 if last is None else last.begins.get(key, -1) for key in begins]
         cosines, smooth = plate.cosines(points_m), np.empty((n, n, N_NODES))
         for j, columns in enumerate(parts):
             for i, rows in enumerate(parts[: j + 1]):
@@ -112,10 +113,11 @@ class TermsAmong:
                     found = last.smooth[at : at + rows.stop - rows.start, to : to + columns.stop - columns.start]
                 else:
                     found = pushed[j].beyond_modes(points_m[rows], cosines[rows])
-                    if i == j:
+                    if keys[i] == keys[j]:
                         found = (found + found.transpose(1, 0, 2)) / 2
                 smooth[rows, columns], smooth[columns, rows] = found, found.transpose(1, 0, 2)
-        return cls(np.concatenate([one.phi for one in pushed]), smooth, pushed, begins)
+        now = {key: (part.start, one) for key, part, one in zip(keys, parts, pushed, strict=True)}
+        return cls(np.concatenate([one.phi for one in pushed]), smooth, pushed, now)
 
 
 class ModalBody:

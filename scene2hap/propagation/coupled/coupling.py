@@ -243,17 +243,27 @@ def _with_large_body(
     if not isinstance(body, Separable) or not is_nearly_full(pattern, free.shape[1], inverts=False):
         return None
     others = {key: one for key, one in ends.items() if key != large_id}
+    rows = [one.rows for one in others.values()]
     large = body.separated(own.points_m, frequencies_hz)
-    if large is None or not large_body.is_faster(large, [one.rows for one in others.values()]):
+    if large is None or not large_body.is_faster(large, rows):
         return None
-    elements = [
-        Element(one.rows, one.signs, bodies[key].receptance(one.points_m, one.points_m, frequencies_hz))
-        for key, one in others.items()
-    ]
+    n_f, compliances = len(frequencies_hz), compliances_m_n(joints, frequencies_hz)
     if wanted is None:
-        wanted = np.ones((free.shape[1], len(frequencies_hz)), dtype=bool)
-    compliances = compliances_m_n(joints, frequencies_hz)
-    return large_body.solve(large, own.rows, own.signs, elements, compliances, free, wanted)
+        wanted = np.ones((free.shape[1], n_f), dtype=bool)
+    forces, is_solved = np.empty((*free.shape, n_f), dtype=np.complex128), np.empty(n_f, dtype=bool)
+    n_bytes = 16 * n_f * sum(len(block) ** 2 for block in large_body.blocks_of(rows))
+    n_parts = min(n_f, 1 + n_bytes // AT_ONCE_BYTES)
+    for begin, end in pairwise(np.linspace(0, n_f, n_parts + 1).astype(int).tolist()):
+        part, few_hz = slice(begin, end), frequencies_hz[begin:end]
+        few = large._replace(resonance=large.resonance[:, part], between=large.between[:, part])
+        elements = [
+            Element(one.rows, one.signs, bodies[key].receptance(one.points_m, one.points_m, few_hz))
+            for key, one in others.items()
+        ]
+        forces[:, :, part], is_solved[part] = large_body.solve(
+            few, own.rows, own.signs, elements, compliances[:, part], free, wanted[:, part]
+        )
+    return forces, is_solved
 
 
 def systems(

@@ -194,8 +194,6 @@ class Impacts:
 
     def _play(self, impact: Impact, burst: Burst, felt: Felt) -> None:
         at_frame, f, profile = impact.at_sample, burst.frequencies_hz, self._profile
-        most = self._most(burst, profile)
-        # XX
         # A hand may be removed before a worker has the gains, and has another output if it is added again.
         outputs = self._playback.outputs
         touched: dict[str, list[TouchedPoint]] = {
@@ -205,7 +203,7 @@ class Impacts:
         def started(gains: Floats, begin: int, among: Collection[str]) -> dict[str, float]:
             """Start the burst, in any thread; return the largest sample at each hand that feels it."""
             # Most impacts of a busy scene are too far from every hand.
-            if not len(gains) or (gains * most).max() < LEAST_GAIN:
+            if not len(gains) or (gains * self._most(burst, profile)).max() < LEAST_GAIN:
                 return {}
             waves, levels = self._levels(burst, [*among], profile)
             weights = levels * self._capped(gains)
@@ -271,14 +269,15 @@ class Impacts:
                 self._record(impact, felt)
 
     def _most(self, burst: Burst, profile: UserProfile | None) -> Floats | float:
-        """Upper bound of `_levels` [-], for each sine (n,) if the actuator plays all of them equally well."""
+        """Upper bound of `_levels` [-], for each sine (n,) if the actuator plays all of them equally well; else `PEAK`,
+        which only users exceed."""
         actuator, (low_hz, high_hz) = self._config.actuator, TACTILE_RANGE_HZ
         is_whole = actuator.min_frequency_hz <= low_hz and actuator.max_frequency_hz >= high_hz
         if profile is not None or not is_whole or not is_flat(actuator):
             return PEAK
         accelerations = burst.accelerations_m_s2
         strongest = PEAK / LEAST_SUM * self._strength(burst) / accelerations.max()
-        most: Floats = np.minimum(PEAK, strongest * (accelerations * (burst.frequencies_hz >= low_hz)))
+        most: Floats = strongest * (accelerations * (burst.frequencies_hz >= low_hz))
         return most
 
     def _strength(self, burst: Burst) -> float:

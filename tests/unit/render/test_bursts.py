@@ -59,6 +59,13 @@ def test_the_peak_is_that_of_all_samples(seed: int) -> None:
     assert every >= LEAST_SUM * weights.max()
 
 
+def test_the_weakest_sum_has_the_least_peak() -> None:
+    """Sines that cancel at the first peak of the strongest, as an optimiser found them."""
+    f, decays = (233.1875, 92.2615, 149.3182), (0.0046, 0.0088, 0.008)
+    waves = [wave_of(*one, RATE) for one in zip(f, decays, strict=True)]
+    assert LEAST_SUM < np.abs(summed(waves, [0.471, 0.3687, 1.0])).max() < 0.5
+
+
 def test_a_beat_may_peak_late() -> None:
     """Two sines that cancel at first have their peak long after the first cycles."""
     waves = [wave_of(100.0, 0.1, RATE), -wave_of(104.0, 0.1, RATE)]

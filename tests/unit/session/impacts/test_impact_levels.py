@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from concurrent.futures import Future
 from dataclasses import replace
 from typing import Any
 
@@ -99,6 +100,32 @@ def test_rendered_peak_of_a_burst_equals_the_reported_level() -> None:
     power = np.abs(np.fft.rfft(blocks[:, 0], 1 << 17)) ** 2
     above = np.fft.rfftfreq(1 << 17, 1 / RATE) > 1000
     assert 10 * math.log10(power[above].sum() / power.sum()) < -60.0
+
+
+@pytest.mark.parametrize("gain_db", [-12.0, 0.0, 20.0])
+def test_no_impact_is_dismissed_that_a_hand_would_feel(gain_db: float) -> None:
+    """The bound that dismisses faint impacts is above the levels at which they play."""
+    made, rng = session(), np.random.default_rng(5)
+    made.set_user(gain_db=gain_db)
+    for n in (1, 2, 3, 6) * 10:
+        f, decays_s = rng.uniform(5, 400, n), rng.uniform(0.008, 0.1, n)
+        burst = Burst(f, decays_s, 10 ** rng.uniform(-3, 4) * 10 ** rng.uniform(-2, 0, n))
+        _, levels = made._impacts._levels(burst, ["left"], None)
+        assert (levels <= made._impacts._most(burst, None)).all()
+
+
+def test_an_impact_that_waits_is_played_at_the_level_of_its_start(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As any vibration: the level may have been set meanwhile."""
+    made, jobs = session(propagation=ModalPlate(), prepare="background"), []
+    made.update(touches=touches())
+    made.wait_prepared()
+    monkeypatch.setattr(made._impacts, "_ahead", None)
+    monkeypatch.setattr(made._impacts._workers, "submit", lambda job: jobs.append(job) or Future())
+    made.set_user(gain_db=-70.0)
+    made.strike("table", STRUCK, with_object="cup", speed_m_s=1.0)
+    made.set_user(gain_db=0.0)
+    felt = [job() for job in jobs]
+    assert [one["left"] > 0.01 for one in felt] == [True]
 
 
 @pytest.mark.parametrize("actuator", ["flat", "lra"])
