@@ -64,7 +64,7 @@ def onsets_among(
             highest(ticks, k, spares_sustained, &onset)
             since = n_known + k - last
             of_sustained = max(sustained if n_known + k - began >= APART else 0.0, hidden)
-            if onset.is_sustained and (sustained > 0.0 or not is_hidden(sound, k)):
+            if onset.is_sustained and (sustained > 0.0 or not is_hidden(sound, ticks, k)):
                 if sustained == 0.0:
                     began = n_known + k
                 sustained = max(sustained, onset.height)
@@ -77,8 +77,10 @@ def onsets_among(
         energy, since = sound[0, k], n_known + k - last
         if RISE * energy < sustained:
             sustained = 0.0
-        if RISE * ticks[0, k] < hidden:
+        if since > LOOK and RISE * ticks[0, k] < hidden:
             hidden = 0.0
+        if hidden > 0.0 and not is_hidden(sound, ticks, k):
+            lowest = 0.0
         if since > LOOK:
             if spares_sustained and since >= APART and energy > RISE * lowest:
                 lowest = 0.0
@@ -92,13 +94,16 @@ def onsets_among(
     return found, lowered if is_lowered else None
 
 
-cdef bint is_hidden(const double[:, ::1] sound, Py_ssize_t k) noexcept:
+cdef bint is_hidden(const double[:, ::1] sound, const double[:, ::1] ticks, Py_ssize_t k) noexcept:
     """Return True if the energy of the whole sound hardly rises at an onset, so that no bed follows it."""
     cdef Py_ssize_t i
+    cdef double whole = 0.0, rest = 0.0
     for i in range(k, k + LOOK + 1):
         if sound[0, i] > RISE * sound[1, k]:
             return False
-    return True
+        whole += sound[0, i]
+        rest += sound[0, i] - ticks[0, i]
+    return RISE * rest >= whole
 
 
 cdef void highest(const double[:, ::1] band, Py_ssize_t k, bint spares_sustained, Onset* onset) noexcept:

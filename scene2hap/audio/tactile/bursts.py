@@ -26,7 +26,7 @@ TICKS_HZ = 1000.0
 """Lowest frequency of the part in which ticks are looked for [Hz]."""
 SHARP_S, DULL_S = 0.008, 0.020
 """Duration of the burst of an onset that is over within 10 ms, and of one that keeps its energy so long [s]. A burst on
-a resonant actuator is longer by the time that its motion needs to rise."""
+a resonant actuator is longer by the time that its motion needs to rise, at most by `DULL_S`."""
 ABOVE_BED, AROUND_S = 8.0, 0.25
 """Largest ratio of a burst to the bed before it (18 dB), and the time over which that bed is measured [s]. A stronger
 burst would use up the head-room that the bed needs to reach its level."""
@@ -43,7 +43,7 @@ class WithBursts(Stage):
 
     A bed that follows the level of the sound renders sustained onsets by itself. If the level of the bed relative to
     the sound is known (`bed_db`), a burst has the energy of its onset times that ratio. Bursts are longer by
-    `ringing_s`, for which the actuator rings.
+    `ringing_s`, for which the actuator rings, but at most by `DULL_S`.
     """
 
     def __init__(
@@ -56,7 +56,7 @@ class WithBursts(Stage):
         bed_db: float | None = None,
         ringing_s: float = 0.0,
     ) -> None:
-        self._bed, self._rate_hz, self._ringing_s = bed, sample_rate_hz, ringing_s
+        self._bed, self._rate_hz, self._ringing_s = bed, sample_rate_hz, min(ringing_s, DULL_S)
         self._share = None if bed_db is None else 10 ** (bed_db / 10)
         self.step: int = max(1, round(STEP_S * sample_rate_hz))
         self._high = SosStage(high_pass(min(TICKS_HZ, 0.4 * sample_rate_hz), sample_rate_hz))
@@ -64,7 +64,7 @@ class WithBursts(Stage):
         self._detector, self._n_made = OnsetDetector(spares_sustained=bed_follows), 0
         self._n_around = max(1, round(AROUND_S * sample_rate_hz))
         self._past = deque([np.zeros(self._n_around)])  # of the bed, in parts
-        longest = max(1, round((DULL_S + ringing_s) * sample_rate_hz))
+        longest = max(1, round((DULL_S + self._ringing_s) * sample_rate_hz))
         self._carrier = np.sin(2.0 * np.pi * carrier_hz / sample_rate_hz * np.arange(longest))
         self._due: list[PendingOnset] = []
         self._bursts: list[tuple[int, Signal]] = []

@@ -109,7 +109,7 @@ def onsets_among(
         if rising[k] and number >= WARM:
             height, left, is_sustained = _highest(steps, k)
             is_sustained = is_sustained and spares_sustained
-            is_followed = is_sustained and (sustained > 0.0 or not _is_hidden(sound, k))
+            is_followed = is_sustained and (sustained > 0.0 or not _is_hidden(steps, k))
             since = number - last
             # A sustained sound may end before the mean has reached it. Its last steps are no onset.
             of_sustained = max(sustained if number - began >= APART else 0.0, hidden)
@@ -125,8 +125,10 @@ def onsets_among(
         energy, since = float(sound[0, k]), number - last
         if RISE * energy < sustained:
             sustained = 0.0
-        if RISE * float(ticks[0, k]) < hidden:
+        if since > LOOK and RISE * float(ticks[0, k]) < hidden:
             hidden = 0.0
+        if hidden and not _is_hidden(steps, k):
+            lowest = 0.0  # it has grown, as an "s" at the end of a vowel does, and the bed follows it
         if since > LOOK:
             rises_again = spares_sustained and since >= APART and energy > RISE * lowest
             lowest = 0.0 if rises_again else min(lowest, max(energy, QUIETEST))
@@ -151,9 +153,13 @@ def _highest(bands: Signal, k: int) -> tuple[float, float, bool]:
     return found
 
 
-def _is_hidden(sound: Signal, k: int) -> bool:
-    """Return True if the energy of the whole sound (3, m) hardly rises at an onset, so that no bed follows it."""
-    return float(sound[0, k : k + LOOK + 1].max()) <= RISE * float(sound[1, k])
+def _is_hidden(steps: Signal, k: int) -> bool:
+    """Return True if the energy of the whole sound hardly rises at an onset of steps (2, 3, m): no bed follows it.
+
+    The mean may still be that of a vowel that has faded. So ticks that make up the sound alone are not hidden.
+    """
+    sound, ticks = steps[:, 0, k : k + LOOK + 1]
+    return bool(sound.max() <= RISE * steps[0, 1, k] and RISE * (sound - ticks).sum() >= sound.sum())
 
 
 class OnsetDetector:
@@ -186,7 +192,7 @@ class OnsetDetector:
             onset = self._found.popleft()
             # A live stream waits less, and measures no energies.
             end = min(onset[0] + SPARED, len(self._shares), *(k for k, *_ in self._found))
-            due.append(_measured(steps[0], self._shares, *onset, end))
+            due.append(_measured(steps, self._shares, *onset, end))
         self._found = deque((k - n, height, left) for k, height, left in self._found)
         shares, self._shares = self._shares[:n], self._shares[n:]
         self._steps = steps[:, :, n:]
@@ -203,9 +209,9 @@ class OnsetDetector:
         self._shares = np.concatenate([self._shares, np.ones(n) if shares is None else shares])
 
 
-def _measured(sound: Signal, shares: Signal, k: int, height: float, left: float, end: int) -> PendingOnset:
-    """Return an onset at step k of the sound (3, m), with the energy that the bed is spared until step `end`."""
-    before, energies = float(sound[1, k]), sound[0, k:end]
+def _measured(steps: Signal, shares: Signal, k: int, height: float, left: float, end: int) -> PendingOnset:
+    """Return an onset at step k of steps (2, 3, m), with the energy that the bed is spared until step `end`."""
+    before, energies = float(steps[0, 1, k]), steps[0, 0, k:end]
     is_beds = (shares[k:end] == 1.0) & (energies > LOWERED * before)
     spared = float(np.where(is_beds, 0.0, np.maximum(energies - before, 0.0)).sum())
-    return PendingOnset(k, height, left, spared, is_hidden=_is_hidden(sound, k))
+    return PendingOnset(k, height, left, spared, is_hidden=_is_hidden(steps, k))

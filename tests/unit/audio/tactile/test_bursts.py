@@ -214,6 +214,32 @@ def test_a_knock_that_a_rumble_hides_from_the_energy_is_felt_once(decay_s: float
         assert level[at + 6 : at + 80].max() < usual + 3.0
 
 
+def test_bursts_on_an_actuator_that_rings_for_seconds_stay_short() -> None:
+    """A Q of 1000 at 20 Hz rings for 4 s, and one of 10^6 would take the memory of the machine."""
+    stage = WithBursts(Silence(), 200.0, RATE, ringing_s=1e5)
+    felt = stage.run(ticks(np.array([0.5]), 0.0, 0.5, 1.0))
+    assert np.ptp(np.flatnonzero(np.abs(felt) > 1e-4)) < 0.041 * RATE
+
+
+@pytest.mark.parametrize("fade_db", [20.0, 25.0, 30.0])
+@pytest.mark.parametrize("rate", [16_000, 48_000])
+def test_an_s_after_a_fading_vowel_is_followed_by_the_bed(rate: int, fade_db: float) -> None:
+    """The mean is still the vowel's, so the faint beginning of the "s" seemed hidden and took 60 ms from the bed."""
+    rng, t = np.random.default_rng(2), np.arange(rate) / rate
+    vowel = 0.5 * np.sin(2 * np.pi * 200 * t) * 10 ** (-fade_db / 20 * np.clip((t - 0.2) / 0.3, 0, 1)) * (t < 0.55)
+    hiss = sosfilt(butter(4, 4000, "high", fs=rate, output="sos"), rng.standard_normal(rate))
+    hiss *= 0.15 / hiss.std() * 10 ** (-2 * np.clip((0.55 - t) / 0.05, 0, 1)) * ((t > 0.5) & (t < 0.75))
+    heard = vowel + hiss + 1e-5 * rng.standard_normal(rate)
+    level, felt = (
+        10 * np.log10((x.reshape(-1, rate // 50) ** 2).mean(axis=1) + 1e-12)
+        for x in (heard, auto(heard, rate, 200.0, -0.5))
+    )
+    # At most 6 dB off while the "s" rises, then 3; both are judged against the vowel before.
+    off = felt - level - np.median((felt - level)[5:20])
+    assert off[20:36].max() < 6.0
+    assert np.abs(off[28:36]).max() < 3.0
+
+
 def test_a_tick_at_the_very_end_is_kept() -> None:
     """In an earlier version the last 20 ms were not searched."""
     found = starts_s(bursts(ticks(np.array([0.5, 1.985]), 0.0, 0.5, 2.0), bed_follows=True))
