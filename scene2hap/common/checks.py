@@ -293,7 +293,7 @@ def path(name: str, value: object, *, error: type[Scene2HapError], hint: str = "
     if not isinstance(value, str | os.PathLike):
         raise error(_sentence(f"{name} is {described(value)}; it must be a path, as a text or a pathlib.Path", hint))
     if value == "":  # Python takes it for the working folder
-        raise error(_sentence(f"{name} is ''; it must be a path", hint))
+        raise error(_sentence(f"{name} is ''; it must be the path of a file or folder", hint))
     try:
         return Path(value)
     except TypeError as cause:  # a path of bytes

@@ -77,5 +77,5 @@ def test_one_item_without_its_list_is_an_error() -> None:
 
 
 def test_an_empty_text_is_no_path() -> None:
-    with pytest.raises(SceneError, match="folder is ''; it must be a path. Name one."):
+    with pytest.raises(SceneError, match="folder is ''; it must be the path of a file or folder. Name one."):
         checks.path("folder", "", error=SceneError, hint="Name one.")
