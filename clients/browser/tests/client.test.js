@@ -48,6 +48,11 @@ async function online() {
   await settled();
 }
 
+function answerWatch(session = PLAYING.session) {
+  const { key, sequence, ...order } = PLAYING; // who watches gets neither
+  FakeSocket.last.answer("watch", { ...order, session, type: "watching" });
+}
+
 async function playing(client, fields = {}, request = {}) {
   client.connect();
   await online();
@@ -560,8 +565,7 @@ test("who watches gets gains, sends none, and watches again", async () => {
   await online();
   const watching = client.watch({ session: "c2f1a09b" });
   await settled();
-  const { key, sequence, ...order } = PLAYING;
-  FakeSocket.last.answer("watch", { ...order, type: "watching" });
+  answerWatch();
   await watching;
   FakeSocket.last.bytes(gainsOf({ sequence: 5 }));
   assert.deepEqual([client.gain("left", "phone"), client.isPlaying, client.sendFrame(1)], [0.5, false, 0]);
@@ -572,10 +576,10 @@ test("who watches gets gains, sends none, and watches again", async () => {
     FakeSocket.last.messages.map(({ type }) => type),
     ["hello", "watch"],
   );
-  FakeSocket.last.answer("watch", { ...order, type: "watching" });
+  answerWatch();
   const other = client.watch({ session: "77e1a09b" });
   await settled();
-  FakeSocket.last.answer("watch", { ...order, session: "77e1a09b", type: "watching" });
+  answerWatch("77e1a09b");
   assert.equal((await other).session, "77e1a09b");
 });
 
@@ -604,8 +608,7 @@ test("what is watched goes on if another session does not begin", async () => {
   await online();
   const watching = client.watch({ session: "c2f1a09b" });
   await settled();
-  const { key, sequence, ...order } = PLAYING;
-  FakeSocket.last.answer("watch", { ...order, type: "watching" });
+  answerWatch();
   await watching;
   for (const [type, begin] of [
     ["watch", () => client.watch({ session: "77e1a09b" })],
@@ -635,11 +638,10 @@ test("of two sessions to watch the second is asked for when the first is answere
   await settled();
   const second = client.watch({ session: "77e1a09b" });
   await settled();
-  const { key, sequence, ...order } = PLAYING;
-  FakeSocket.last.answer("watch", { ...order, type: "watching" });
+  answerWatch();
   await first;
   await settled();
-  FakeSocket.last.answer("watch", { ...order, session: "77e1a09b", type: "watching" });
+  answerWatch("77e1a09b");
   await second;
   assert.equal(client.order?.session, "77e1a09b");
   assert.deepEqual(

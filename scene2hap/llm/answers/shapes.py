@@ -158,7 +158,7 @@ def read_answer(shape: type[AnswerType], text: str) -> AnswerType:
 
 
 def _require_each_key_once(shape: type[Answer], text: str) -> None:
-    """Raise a ValidationError, so that the model is asked again, if a key is given twice: which value is right?"""
+    """Raise a ValidationError if an object has a key twice. The repair then sends the question again."""
     try:
         parse_json(text)
     except RepeatedKey as found:
