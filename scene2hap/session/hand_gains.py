@@ -22,12 +22,9 @@ from scene2hap.propagation.live import CostsByHand, LiveField, PathCostField, To
 from scene2hap.propagation.protocol import checked_gains
 from scene2hap.session.audibility import SILENT, Audibility, CutoffCost, within
 from scene2hap.session.config import MAX_GAIN_DB, SkipConfig
-from scene2hap.session.frame import Counts, Gains, Touch
+from scene2hap.session.frame import Felt, Gains, Touch
 from scene2hap.session.reach import Reach
-
-Felt = dict[str, list[Touch]]
-"""Touches by hand, in the order of the hands; hands without touches are left out."""
-
+from scene2hap.session.stats import Counts
 
 HandQuery = tuple[list[TouchedPoint], frozenset[int]]
 """The touched points of one hand at which a field is evaluated, and the columns of the sources that reach them."""

@@ -33,8 +33,8 @@ from scene2hap.scene.objects import Contact
 from scene2hap.scene.plausibility.contact_normals import are_reversed
 from scene2hap.scene.pose import Pose, in_own
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.session.frame import Touch
-from scene2hap.session.hand_gains import Felt
+from scene2hap.session.frame import Felt, Touch
+from scene2hap.session.mix.output import NOT_STARTED
 from scene2hap.session.network import body_of
 from scene2hap.session.scene_state import SceneState
 
@@ -47,10 +47,6 @@ wrong points continues to do so."""
 
 MOST_NAMED = 10
 """Most objects that a session names: a game may spawn thousands, and Python stores the text of each warning."""
-
-NOT_STARTED = "The sink plays nothing: call start(), or use the session in a `with` block."
-
-NOT_UPDATED = "The sink is silent, since no update came for {:g} s: call it in each frame, changed or not."
 
 UNPLAYED = 50
 """Updates with touches before a sink that was never started is named: a second of a slow game. A game may update a few
