@@ -30,7 +30,9 @@ PeaksOf = Callable[[Sequence[LoopRow]], NDArray[np.float32]]
 class HandFrames:
     """Turns touches into gains, and skips updates that change nothing.
 
-    All inputs of the gains other than the touches are cached, and dropped when they change.
+    What the gains depend on besides the touches is cached, and dropped when its inputs change:
+    levels (sources, user), audibility (loops), cut-offs (field, audibility), method (field, levels, audibility, reach).
+    hands : names of the outputs; keeper : provides the field.
     """
 
     def __init__(
@@ -41,13 +43,14 @@ class HandFrames:
         self._method: tuple[LiveField, GainMethod] | None = None
         self._levels, self._are_levels_known = np.empty(0), False
         self._profile: UserProfile | None = None
-        self._hands = hands
+        self.hands: tuple[str, ...] = hands
         self._personal: PersonalGains | None = None
         self._audibility: Audibility | None = None
         self._loudness: Loudness | None = None
         self._cutoff: tuple[PathCostField, CutoffCost] | None = None
         self._felt: Felt = {}
         self._frame = self.silence()
+        # Whether `_frame` holds for the touches `_felt` as long as none of their objects moves.
         self._is_fresh = False
         self._fields = FieldRequests(config, state, sources, self._counts)
         self.keeper: FieldProvider = self._fields.keeper
@@ -59,7 +62,7 @@ class HandFrames:
         if self._fields.apply(change, sources_changed=sources_changed):
             self._is_fresh = False
 
-    def loops_came(self) -> None:
+    def loops_changed(self) -> None:
         """Drop caches that depend on the loops, after more loops became ready to be mixed."""
         self._audibility = self._loudness = self._method = None
         self._is_fresh = False
@@ -78,7 +81,7 @@ class HandFrames:
 
     def use_hands(self, hands: tuple[str, ...]) -> None:
         """Use other hands. Those that remain keep their touches."""
-        self._hands = hands
+        self.hands = hands
         self._felt = {hand: self._felt[hand] for hand in hands if hand in self._felt}
         self.levels_changed()
 
@@ -96,7 +99,7 @@ class HandFrames:
                 self._frame = self.silence()
             else:
                 gained = self._gains_of_hands(felt)
-                self._frame = HapticFrame(gained.full, self._hands, self._sources.ids)
+                self._frame = HapticFrame(gained.full, self.hands, self._sources.ids)
         self.keeper.order()
         self._n_updates += 1
         return self._frame, gained
@@ -115,7 +118,7 @@ class HandFrames:
 
     def silence(self) -> HapticFrame:
         """A frame in which all gains are 0."""
-        return HapticFrame(self._nothing(), self._hands, self._sources.ids)
+        return HapticFrame(self._nothing(), self.hands, self._sources.ids)
 
     def wait(self, end: Deadline) -> bool:
         """Wait for the worker; false after the deadline."""
@@ -164,7 +167,8 @@ class HandFrames:
 
     def _catch_up(self) -> None:
         """Apply the additions and removals of objects and sources since the last frame."""
-        if self._fields.catch_up():
+        if not self._fields.is_caught_up:
+            self._fields.catch_up()
             self._method, self._are_levels_known = None, False
 
     def _forget_sources(self) -> None:
@@ -181,13 +185,13 @@ class HandFrames:
         if not felt:
             silence = self._nothing()
             if self._config.skip.idle_hands:
-                self._counts.idle_hands += len(self._hands)
+                self._counts.idle_hands += len(self.hands)
             return HandGains(lambda: silence, silence)
         self._known_levels()
         field = self.keeper.for_touches(self._sources.ids, self._fields.reach)
         if self._method is None or self._method[0] is not field:
             self._method = (field, self._new_method(field))
-        gained = self._method[1].of_hands(self._hands, felt)
+        gained = self._method[1].of_hands(self.hands, felt)
         return gained if self._personal is None else self._personal.applied(gained)
 
     def _new_method(self, field: LiveField) -> GainMethod:
@@ -222,7 +226,7 @@ class HandFrames:
         return self._cutoff[1]
 
     def _nothing(self) -> NDArray[np.float32]:
-        return np.zeros((len(self._hands), len(self._sources.ids), self._config.bands.n_bands), dtype=np.float32)
+        return np.zeros((len(self.hands), len(self._sources.ids), self._config.bands.n_bands), dtype=np.float32)
 
     def _known_levels(self) -> NDArray[np.float64]:
         """The factor of each source's signal (n_sources,) [-]."""
@@ -231,7 +235,7 @@ class HandFrames:
             self._personal = None
             if self._profile is not None:
                 config, rows = self._config, self._sources.active_rows()
-                self._personal = PersonalGains(self._profile, config.actuator.name, self._hands, rows, config.bands)
+                self._personal = PersonalGains(self._profile, config.actuator.name, self.hands, rows, config.bands)
                 levels *= self._personal.highest
             if not np.array_equal(levels, self._levels):
                 self._levels, self._loudness, self._method = levels, None, None
@@ -241,8 +245,8 @@ class HandFrames:
     def _levels_at(self, hand: str) -> dict[str, NDArray[np.float64]]:
         """The level of each source at a hand, by band (n_bands,) [-]."""
         levels = np.repeat(self._known_levels()[:, None], self._config.bands.n_bands, axis=1)
-        if self._personal is not None and hand in self._hands:
-            levels *= self._personal.shares[self._hands.index(hand)]
+        if self._personal is not None and hand in self.hands:
+            levels *= self._personal.shares[self.hands.index(hand)]
         return dict(zip(self._sources.ids, levels, strict=True))
 
     def _touch_gains(self, field: LiveField, counts: Counts) -> TouchGains:

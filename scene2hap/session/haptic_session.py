@@ -1,9 +1,19 @@
 """A session: plays the vibration of a scene at the hands that touch it.
 
-Call `render` on the audio thread and everything else on the game's. `update` keeps the contact graph up to date and
-turns touches into gains. After a change of contacts it requests a new propagation field, unless the model has a live
-field. `render` mixes the sources' loops with the gains. Nothing here uses a network. `update` never waits for a model,
-and `render` never waits for `update`.
+Call `render` on the audio thread and everything else on the game's. Nothing here uses a network. `update` never waits
+for a model, and `render` never waits for `update`. A frame, in `update`:
+
+1. The touches are grouped by hand. Loops that a worker has prepared are added to the mix.
+2. Objects move, and their contacts change. If this concerns a source, a new propagation field is requested, unless the
+   model has a live field.
+3. Sources start and stop, in cycles and with the contacts that they need.
+4. The field is evaluated at the touches. The gains, times the levels of sources and user, go to the mixer.
+5. Objects that have landed add bursts to the mix.
+6. The sink gets the frame, which resets its watchdog. Likely mistakes are named.
+
+Each part owns its state: `SceneState` the objects, their poses and contacts; `Sources` states, switches and levels;
+`Switching` starts and stops that are under way; `HandFrames` the field, the touches and the gains; `Playback` the
+loops, the clock and the pause; `Impacts` motions and bursts; `Output` the sink and its safety layer.
 """
 
 from __future__ import annotations
@@ -119,7 +129,7 @@ class HapticSession:
             scene, bundle = given_pair(scene, bundle)
         require_same_scene(scene, bundle)
         self._config = SessionConfig.parse(config).on_actuator(bundle.actuator)
-        self._hands = checks.names("hands", hands)
+        hands = checks.names("hands", hands)
         self._bundle = bundle
         warn_if_not_baked(scene, bundle)
         warn_if_other_actuator(bundle, self.config.actuator)
@@ -133,9 +143,9 @@ class HapticSession:
         in_background = self.config.prepare == "background"
         self._shapes = PreparedShapes(is_wanted=scene.contacts is None, in_background=in_background)
         self._shapes.order(item.geometry.mesh for item in scene.objects)
-        self._playback = Playback(self.config, self._sources.rows(), self.hands)
+        self._playback = Playback(self.config, self._sources.rows(), hands)
         self._switching = Switching(self._sources, self._playback, self._state, self.config.sample_rate_hz)
-        self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
+        self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, hands)
         self._mistakes = LikelyMistakes(self._state)
         # No reference to the session itself: only the garbage collector could free such a cycle.
         frames = self._hand_frames
@@ -153,7 +163,7 @@ class HapticSession:
     @property
     def hands(self) -> tuple[str, ...]:
         """Names of the outputs, in the order of channels."""
-        return self._hands
+        return self._hand_frames.hands
 
     @property
     def source_ids(self) -> tuple[str, ...]:
@@ -208,14 +218,14 @@ class HapticSession:
         self._output.require_own_process()
         if moved is not None and type(moved) is not dict:
             moved, touches = given_frame(moved, touches)
-        felt = touches_by_hand(touches, self._hands, self._state)
+        felt = touches_by_hand(touches, self._hand_frames.hands, self._state)
         stamp = self._stamp(at_sample)
         if self._playback.take_prepared():
-            self._hand_frames.loops_came()
+            self._hand_frames.loops_changed()
         if moved:
             self._impacts.begin(moved, stamp)
         if moved or contacts is not None:
-            self._hand_frames.apply(self._changed(moved or {}, contacts))
+            self._hand_frames.apply(self._move(moved or {}, contacts))
         if self._switching.advance(stamp):
             self._hand_frames.levels_changed()
         frame, gained = self._hand_frames.frame(felt, moved or (), is_paused=self._playback.is_paused)
@@ -246,7 +256,7 @@ class HapticSession:
         above 1 m, or moved is no mapping; UnknownObject: a moved object is not in the scene; SceneError: another type
         than a pose.
         """
-        points = given_points(points_m, self._hands)
+        points = given_points(points_m, self.hands)
         within_m = checks.number("within_m", within_m, "m", at_least=0.0, at_most=1.0, error=SessionError)
         depth_m = checks.number("depth_m", depth_m, "m", at_least=0.0, at_most=1.0, error=SessionError)
         poses = self._state.poses
@@ -544,7 +554,7 @@ class HapticSession:
         Fractions of a sample are carried to the next call, so that 90 calls of 1/90 s give exactly one second.
         Raises: SessionError.
         """
-        return self.render(self._whole.of(seconds))
+        return self.render(self._whole_frames.of(seconds))
 
     def _mixed(self, n_frames: int) -> Block:
         return self._playback.render(given_frames(n_frames))
@@ -638,10 +648,11 @@ class HapticSession:
         return Proximity()
 
     @cached_property
-    def _whole(self) -> WholeFrames:
+    def _whole_frames(self) -> WholeFrames:
         return WholeFrames(self.config.sample_rate_hz)
 
     def _stamp(self, at_sample: int | None) -> int:
+        """Return the position on `render`'s clock from which an update counts, and store it."""
         playback = self._playback
         stamp = playback.now
         if at_sample is not None:
@@ -662,26 +673,25 @@ class HapticSession:
         self._user = user
         self._hand_frames.use_profile(user)
         self._impacts.use_profile(user)
-        limits = user.limits(self._hands, self.config.actuator.name)
+        limits = user.limits(self.hands, self.config.actuator.name)
         self._playback.hold(limits)
         self._output.hold(limits)
-        warn_if_other_hands(tuple(user.hands), self._hands)
+        warn_if_other_hands(tuple(user.hands), self.hands)
 
     def _use_hands(self, hands: tuple[str, ...]) -> None:
-        self._hands = hands
         self._hand_frames.use_hands(hands)
         if self._user is not None:
             self._use_profile(self._user)
 
-    def _changed(self, moved: Mapping[str, Pose], contacts: Sequence[Contact] | None) -> ContactChange:
+    def _move(self, moved: Mapping[str, Pose], contacts: Sequence[Contact] | None) -> ContactChange:
         self._mistakes.in_moves(moved)
-        try:
-            if contacts is None:
-                return self._state.graph.update(moved)
+        if contacts is not None:
             contacts = given_contacts(contacts)
+        try:
             change = self._state.graph.update(moved, contacts=contacts)
-            self._mistakes.in_contacts(contacts)
-            return change
         except SceneError:
-            require_moves(moved, self._state)
+            require_moves(moved, self._state)  # names the object, and says how to write a pose
             raise
+        if contacts is not None:
+            self._mistakes.in_contacts(contacts)
+        return change

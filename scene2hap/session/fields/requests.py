@@ -77,7 +77,8 @@ class FieldProvider(Protocol):
 class FieldRequests:
     """Follows the groups of connected objects, and requests a field after each change that concerns a source.
 
-    keeper : provides the field; reach : the groups, and the sources in each, since the last `catch_up`.
+    keeper : provides the field; reach : the groups, and the sources in each, for the scene at the last `catch_up`;
+    is_caught_up : false while objects or sources were added or removed since then.
     Raises: the errors of the model, if no worker prepares.
     """
 
@@ -89,7 +90,8 @@ class FieldRequests:
         self._n_unreachable: int | None = None
         # Changes since objects or sources were added or removed, and whether one of them needs a field in any case.
         self._pending: list[ContactChange] = []
-        self._must_request, self._is_caught_up = False, True
+        self._must_request = False
+        self.is_caught_up: bool = True
         self._find_reach()
         self.keeper: FieldProvider = _keeper_of(config, state, self.excitations)
         self._count_unreachable()
@@ -109,9 +111,9 @@ class FieldRequests:
         if sources_changed:
             self._excitations = None
         if sources_changed or self._bodies is not self._state.bodies:
-            self._is_caught_up = False
+            self.is_caught_up = False
         is_new = self._is_moved() or bool(change)
-        if not self._is_caught_up:
+        if not self.is_caught_up:
             if not (is_new or sources_changed):
                 return False
             self._pending.append(change)
@@ -132,23 +134,20 @@ class FieldRequests:
     def states_changed(self) -> None:
         """Request a field: in another state a source has another frequency."""
         self._excitations = None
-        if self._is_caught_up:
+        if self.is_caught_up:
             self._request()
         else:
             self._must_request = True
 
-    def catch_up(self) -> bool:
-        """Apply the additions and removals since the last frame. Returns false if there are none."""
-        if self._is_caught_up:
-            return False
+    def catch_up(self) -> None:
+        """Apply the additions and removals of objects and sources since the last call."""
         pending, must_request = self._pending, self._must_request
-        self._pending, self._must_request, self._is_caught_up = [], False, True
+        self._pending, self._must_request, self.is_caught_up = [], False, True
         self._find_reach()
         if must_request or any(map(self.reach.concerns, pending)):
             self._request()
         else:
             self._counts.changes_out_of_reach += len(pending)
-        return True
 
     def _concerns_sources(self, change: ContactChange) -> bool:
         return not self._config.skips_unreachable or self.reach.concerns(change)
