@@ -63,10 +63,13 @@ class FieldKeeper:
         self._thread: Thread | None = None
         self._must_expect = self._is_expectant = False
         self._for_touches: tuple[FieldInUse, tuple[str, ...], Reach] | None = None
+        # Number of the last request with a field of all objects or an error, number of the last request for the worker,
+        # and how many orders the worker got.
         self._n_answered = self._n_ordered = self._n_put = 0
         self._n_prepared = self._n_failed = 0
         self._last_failure, self._latency_s = "", 0.0
-        self._failure, self._is_refused = "", False
+        self.failure: str = ""
+        """See `FieldProvider`."""
         before = self._request(0, excitations)
         self._whole = PreparedField(NoPropagation().prepare(ContactNetwork({}), excitations, bands), before)
         self.in_use: PreparedField = self._whole
@@ -83,11 +86,6 @@ class FieldKeeper:
     def is_current(self) -> bool:
         """Whether the field in use was prepared for the newest scene state."""
         return self.in_use.request is self._requested
-
-    @property
-    def failure(self) -> str:
-        """See `FieldProvider`."""
-        return self._failure if self._is_refused else ""
 
     @property
     def stats(self) -> SessionStats:
@@ -165,7 +163,7 @@ class FieldKeeper:
             return True
         request, problem = answer
         self._n_answered = request.number
-        self._note(problem)
+        self._note_failure(problem)
         return False
 
     def wait(self, end: Deadline) -> bool:
@@ -198,7 +196,7 @@ class FieldKeeper:
         if self._for_touches is not None:
             self._for_touches[0].use(found, self._whole)
         self._n_prepared += 1
-        self._is_refused = False
+        self.failure = ""
         if request is not before:
             self._latency_s = time.monotonic() - request.requested_at_s
 
@@ -208,15 +206,15 @@ class FieldKeeper:
             expected = self.in_use.expected
             self._must_expect = not expected.issuperset([object_id for object_id, _ in touched])
 
-    def _note(self, problem: Exception) -> None:
+    def _note_failure(self, problem: Exception) -> None:
         self._n_failed += 1
         self._last_failure = failure_of(problem)
         instead = "the last one plays on" if self._n_prepared else "each source is felt on itself alone"
-        self._failure = f"The model could not prepare a field, so that {instead}: {self._last_failure}"
+        failure = f"The model could not prepare a field, so that {instead}: {self._last_failure}"
         # Once until a field is prepared again, since a game may change its scene in every frame.
-        if not self._is_refused:
-            warn_of(self._failure, FieldWarning)
-        self._is_refused = True
+        if not self.failure:
+            warn_of(failure, FieldWarning)
+        self.failure = failure
 
     def _put(self, order: FieldRequest | WorkerSignal) -> None:
         if self._thread is None or not self._thread.is_alive():
