@@ -59,8 +59,10 @@ class HandFrames:
         """Apply a change of contacts. `sources_changed` is true if sources were added or removed."""
         if sources_changed:
             self._forget_sources()
-        if self._fields.apply(change, sources_changed=sources_changed):
-            self._is_fresh = False
+        # Also if the model fails, which raises its error here if no worker prepares.
+        was_fresh, self._is_fresh = self._is_fresh, False
+        if not self._fields.apply(change, sources_changed=sources_changed):
+            self._is_fresh = was_fresh
 
     def loops_changed(self) -> None:
         """Drop caches that depend on the loops, after more loops became ready to be mixed."""
@@ -168,8 +170,8 @@ class HandFrames:
     def _catch_up(self) -> None:
         """Apply the additions and removals of objects and sources since the last frame."""
         if not self._fields.is_caught_up:
-            self._fields.catch_up()
             self._method, self._are_levels_known = None, False
+            self._fields.catch_up()
 
     def _forget_sources(self) -> None:
         """Drop caches that depend on the sources and their states."""
