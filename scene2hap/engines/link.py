@@ -16,7 +16,8 @@ from scene2hap.errors import ConfigError, SceneError
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
 from scene2hap.session import HapticFrame, HapticSession, Touch
-from scene2hap.session.arguments import given_contacts, given_touches
+from scene2hap.session.arguments import given_contacts
+from scene2hap.session.frame import given_touches
 
 _T = TypeVar("_T")
 _MOST_NAMED = 5

@@ -14,7 +14,7 @@ from scene2hap.scene.engines import mujoco as engine, mujoco_contacts
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.session import HapticSession, Touch
-from scene2hap.session.frame import unknown_hand
+from scene2hap.session.unknown_names import unknown_hand
 
 _MOST_NAMED = 3
 

@@ -1,12 +1,12 @@
 """Conversion of a session's arguments: accept an unexpected type if its meaning is clear, else raise.
 
-An ordinary frame runs only `given_stamp`, `touches_by_hand` and `given_frames`, each on its shortest way.
+`frame` converts touches, and `config` settings. An ordinary frame runs nothing of this module but `given_stamp`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
-from typing import Any, NoReturn
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -14,34 +14,21 @@ from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.common import checks
 from scene2hap.common.arrays import Floats, floats
-from scene2hap.devices.protocol import ActuatorSink
 from scene2hap.devices.whole_frames import MAX_RENDERED_FRAMES
-from scene2hap.errors import BundleError, ConfigError, SceneError, SessionError, UnknownObject
+from scene2hap.errors import BundleError, SceneError, SessionError
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose, how_to_write
-from scene2hap.session.frame import Touch, require_hand, unknown_hand
-from scene2hap.session.hand_gains import Felt
+from scene2hap.session.frame import Touch, given_touches
 from scene2hap.session.impacts.felt_impacts import KNOCK_M_S, Strike
 from scene2hap.session.scene_state import SceneState
+from scene2hap.session.unknown_names import require_hand
 
 MAX_POINTS = 1024
 """Most tracked points of a hand; assumed: 26 joints, or a few hundred points of a glove."""
 
 MAX_AHEAD_S = 3600
 """Longest time of `at_sample` ahead of the rendered samples [s]; assumed: a longer one is in other units."""
-
-_TOUCH = "Touch(hand, object_id, point_m)"
-
-
-def require_settings(config: object) -> None:
-    """Raise a ConfigError if another argument of a session (hands, sink) is given as settings."""
-    if isinstance(config, ActuatorSink):
-        raise ConfigError(f"config is {checks.described(config)}; write HapticSession(..., sink=sink).")
-    for name in ("hands", "sink"):
-        if isinstance(config, Mapping) and name in config:
-            value = checks.represented(config[name])
-            raise ConfigError(f"{name} is an argument, no setting; write HapticSession(..., {name}={value}).")
 
 
 def given_frame(moved: object, touches: Any) -> tuple[Mapping[str, Pose] | None, Any]:
@@ -64,43 +51,8 @@ def given_poses(moved: object) -> dict[str, Pose]:
         return dict(moved)
     raise SessionError(
         f"moved is {checks.described(moved)}; it must be a mapping of object ids to poses, as {{'mug': Pose(...)}}. "
-        f"Touches go by name: update(touches=[{_TOUCH}])."
+        "Touches go by name: update(touches=[Touch(hand, object_id, point_m)])."
     )
-
-
-def given_touches(touches: object) -> list[Touch]:
-    """Convert touches that are no sequence of Touch: a single one, None, or (hand, object id, point).
-
-    Raises: SessionError: anything else, such as a mapping or a text.
-    """
-    if touches is None:
-        return []
-    if isinstance(touches, Touch):
-        return [touches]
-    if isinstance(touches, str | Mapping):
-        _refuse_touches("is", touches)
-    try:
-        found = list(touches)  # type: ignore[call-overload]  # if it cannot, see below
-    except Exception:  # an object of another type may raise any error
-        _refuse_touches("is", touches)
-    return [_given_touch(one) for one in found]
-
-
-def _given_touch(touch: object) -> Touch:
-    if isinstance(touch, tuple) and len(touch) == 3:
-        touch = Touch(*touch)
-    if not isinstance(touch, Touch):
-        _refuse_touches("has", touch)
-    if not isinstance(touch.hand, str):
-        raise SessionError(f"hand is {checks.described(touch.hand)}; it must be a name. A touch is {_TOUCH}.")
-    if not isinstance(touch.object_id, str):
-        raise SessionError(f"object_id is {checks.described(touch.object_id)}; it must be an id. A touch is {_TOUCH}.")
-    return touch
-
-
-def _refuse_touches(verb: str, given: object) -> NoReturn:
-    wrong = f"{checks.represented(given)} ({type(given).__name__})"
-    raise SessionError(f"touches {verb} {wrong}; it must be a list of Touch, as [{_TOUCH}].")
 
 
 def given_points(points_m: object, hands: Sequence[str]) -> dict[str, Floats]:
@@ -128,46 +80,19 @@ def given_points(points_m: object, hands: Sequence[str]) -> dict[str, Floats]:
     return found
 
 
-def touches_by_hand(touches: Any, hands: Sequence[str], state: SceneState) -> Felt:
-    """Group touches, in any form that `given_touches` accepts, by their hand.
-
-    Raises: UnknownObject: an object is not in the scene; SessionError: an unknown hand, or another type.
-    """
-    if type(touches) is not list and type(touches) is not tuple:
-        touches = given_touches(touches)
-    try:
-        by_hand = _grouped(touches, hands, state)
-    except UnknownObject:
-        raise
-    except Exception:  # an object of another type may raise any error
-        by_hand = _grouped(given_touches(touches), hands, state)
-    for hand in by_hand:
-        if hand not in hands:
-            raise SessionError(unknown_hand(hand, hands))
-    return {hand: by_hand[hand] for hand in hands if hand in by_hand}
-
-
-def _grouped(touches: Sequence[Touch], hands: Collection[str], state: SceneState) -> dict[str, list[Touch]]:
-    by_hand: dict[str, list[Touch]] = {}
-    for touch in touches:
-        if touch.object_id not in state.objects:
-            state.require(touch.object_id, _swapped_hint(touch, hands))
-        by_hand.setdefault(touch.hand, []).append(touch)
-    return by_hand
-
-
-def _swapped_hint(touch: Touch, hands: Collection[str]) -> str:
-    """Return a hint if a touch has hand and object swapped."""
-    is_hand = isinstance(touch.object_id, str) and touch.object_id in hands
-    return f" {touch.object_id!r} is a hand; a touch is {_TOUCH}." if is_hand else ""
-
-
 def require_pose(object_id: str, pose: object) -> None:
     """Require a Pose. Raises: SceneError: another type; the message says how to write it as a Pose."""
     if isinstance(pose, Pose):
         return
     how = "write its .pose" if isinstance(pose, SceneObject) else how_to_write(pose)
     raise SceneError(f"the pose of {object_id!r} is {checks.represented(pose)}; it must be a Pose: {how}.")
+
+
+def require_moves(moved: Mapping[str, object], state: SceneState) -> None:
+    """Require poses of objects in the scene. Raises: UnknownObject; SceneError: another type than a Pose."""
+    for object_id, pose in moved.items():
+        state.require(object_id)
+        require_pose(object_id, pose)
 
 
 def given_contacts(contacts: object) -> Sequence[Contact]:

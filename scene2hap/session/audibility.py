@@ -25,7 +25,7 @@ from scene2hap.compiled import compiled
 from scene2hap.propagation.live import CostsByHand, PathCostField
 from scene2hap.propagation.protocol import Excitation, checked_gains
 from scene2hap.session.config import SkipConfig
-from scene2hap.session.frame import Counts
+from scene2hap.session.stats import Counts
 
 BELOW_THRESHOLD_DB = 10.0
 """Margin below the threshold of touch of the sum of all sources that are left out of a hand's mix."""

@@ -12,6 +12,7 @@ from pydantic import BeforeValidator, Field, model_validator
 from scene2hap.audio.actuators import actuator_profile
 from scene2hap.common import checks
 from scene2hap.common.settings import Settings
+from scene2hap.devices.protocol import ActuatorSink
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import ActuatorProfile, Bands
 from scene2hap.propagation import MODELS
@@ -160,3 +161,13 @@ class SessionConfig(Settings):
     def prepares_impacts(self) -> bool:
         """True if a worker prepares the scene around touched objects for impacts (coupled models only)."""
         return self.impacts and self.prepare == "background" and isinstance(self.propagation, CoupledModel)
+
+
+def require_settings(config: object) -> None:
+    """Raise a ConfigError if another argument of a session (hands, sink) is given as settings."""
+    if isinstance(config, ActuatorSink):
+        raise ConfigError(f"config is {checks.described(config)}; write HapticSession(..., sink=sink).")
+    for name in ("hands", "sink"):
+        if isinstance(config, Mapping) and name in config:
+            value = checks.represented(config[name])
+            raise ConfigError(f"{name} is an argument, no setting; write HapticSession(..., {name}={value}).")

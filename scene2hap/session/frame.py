@@ -1,10 +1,10 @@
-"""Input and output of an update: touches, gains, counters."""
+"""Input and output of an update: the touches of each hand, and the gains of each source at each hand."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +13,11 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes, clear_call, clear_construction
 from scene2hap.common.counted import first_of
 from scene2hap.errors import SessionError, UnknownObject
+from scene2hap.session.scene_state import SceneState
+from scene2hap.session.unknown_names import require_hand, unknown_hand, unknown_source
 
 _MOST_SHOWN = 8
-_TOUCH = "A touch is Touch(hand, object_id, point_m), its point in the world."
+_TOUCH = "Touch(hand, object_id, point_m)"
 
 
 @clear_construction
@@ -37,12 +39,86 @@ class Touch:
         def __init__(self, hand: str, object_id: str, point_m: Iterable[float]) -> None: ...
 
     def __post_init__(self) -> None:
-        point = checks.vector("point_m", self.point_m, "m", size=3, error=SessionError, hint=_TOUCH)
+        hint = f"A touch is {_TOUCH}, its point in the world."
+        point = checks.vector("point_m", self.point_m, "m", size=3, error=SessionError, hint=hint)
         object.__setattr__(self, "point_m", point)
 
 
 GivenTouches = Touch | Iterable[Touch | tuple[str, str, Iterable[float]]]
 """All forms in which a session accepts touches; a tuple is (hand, object id, point)."""
+
+Felt = dict[str, list[Touch]]
+"""Touches by hand, in the order of the hands; hands without touches are left out."""
+
+
+def touches_by_hand(touches: Any, hands: Sequence[str], state: SceneState) -> Felt:
+    """Group touches, in any form that `given_touches` accepts, by their hand.
+
+    Raises: UnknownObject: an object is not in the scene; SessionError: an unknown hand, or another type.
+    """
+    if type(touches) is not list and type(touches) is not tuple:
+        touches = given_touches(touches)
+    try:
+        by_hand = _grouped(touches, hands, state)
+    except UnknownObject:
+        raise
+    except Exception:  # an object of another type may raise any error
+        by_hand = _grouped(given_touches(touches), hands, state)
+    for hand in by_hand:
+        if hand not in hands:
+            raise SessionError(unknown_hand(hand, hands))
+    return {hand: by_hand[hand] for hand in hands if hand in by_hand}
+
+
+def _grouped(touches: Sequence[Touch], hands: Collection[str], state: SceneState) -> dict[str, list[Touch]]:
+    by_hand: dict[str, list[Touch]] = {}
+    for touch in touches:
+        if touch.object_id not in state.objects:
+            state.require(touch.object_id, _swapped_hint(touch, hands))
+        by_hand.setdefault(touch.hand, []).append(touch)
+    return by_hand
+
+
+def _swapped_hint(touch: Touch, hands: Collection[str]) -> str:
+    """Return a hint if a touch has hand and object swapped."""
+    is_hand = isinstance(touch.object_id, str) and touch.object_id in hands
+    return f" {touch.object_id!r} is a hand; a touch is {_TOUCH}." if is_hand else ""
+
+
+def given_touches(touches: object) -> list[Touch]:
+    """Convert touches that are no sequence of Touch: a single one, None, or (hand, object id, point).
+
+    Raises: SessionError: anything else, such as a mapping or a text.
+    """
+    if touches is None:
+        return []
+    if isinstance(touches, Touch):
+        return [touches]
+    if isinstance(touches, str | Mapping):
+        _refuse_touches("is", touches)
+    try:
+        found = list(touches)  # type: ignore[call-overload]  # if it cannot, see below
+    except Exception:  # an object of another type may raise any error
+        _refuse_touches("is", touches)
+    return [_given_touch(one) for one in found]
+
+
+def _given_touch(touch: object) -> Touch:
+    if isinstance(touch, tuple) and len(touch) == 3:
+        touch = Touch(*touch)
+    if not isinstance(touch, Touch):
+        _refuse_touches("has", touch)
+    if not isinstance(touch.hand, str):
+        raise SessionError(f"hand is {checks.described(touch.hand)}; it must be a name. A touch is {_TOUCH}.")
+    if not isinstance(touch.object_id, str):
+        raise SessionError(f"object_id is {checks.described(touch.object_id)}; it must be an id. A touch is {_TOUCH}.")
+    return touch
+
+
+def _refuse_touches(verb: str, given: object) -> NoReturn:
+    wrong = f"{checks.represented(given)} ({type(given).__name__})"
+    raise SessionError(f"touches {verb} {wrong}; it must be a list of Touch, as [{_TOUCH}].")
+
 
 Gains = NDArray[np.float32]
 
@@ -99,119 +175,3 @@ def _read_only(gains: Gains) -> Gains:
     view = gains.view()
     view.flags.writeable = False
     return view
-
-
-@clear_attributes
-@dataclass(frozen=True)
-class SkipCounts:
-    """How often a session skipped each kind of work; see `SkipConfig`.
-
-    Parameters: unreachable_objects : objects left out of the model's input, or without a path from a live field's
-    sources, summed over preparations and changes; unreachable_touches : touches that no source reaches;
-    changes_out_of_reach : contact changes after which nothing had to be prepared; below_threshold : sources left out at
-    a hand although they are connected to the touched object; silent_bands : gains left out at a hand; rows_not_mixed :
-    bands of loops, times cells of 3 ms, with no gain above 0; idle_hands : hands that touched nothing; unchanged_frames
-    : updates without a change.
-    """
-
-    unreachable_objects: int = 0
-    unreachable_touches: int = 0
-    changes_out_of_reach: int = 0
-    below_threshold: int = 0
-    silent_bands: int = 0
-    rows_not_mixed: int = 0
-    idle_hands: int = 0
-    unchanged_frames: int = 0
-
-
-@clear_attributes
-@dataclass(frozen=True)
-class SessionStats:
-    """Counters of a session, as `HapticSession.stats` returns them.
-
-    Parameters: updates : calls of `update`; fields_prepared : fields taken into use, and changes of contacts that a
-    live field followed; gains_capped : gains of a source at a hand above the limit; bodiless : objects that carry no
-    vibration, since their material is unknown; field_age_s : time since the field in use went out of date, 0 while it
-    is current [s]; field_latency_s : time from a change to the use of the field that includes it [s]; fields_failed :
-    preparations that the model refused, while the last field stayed in use; last_failure : the model's message;
-    touches_off_surface : touches more than 5 cm off the box around their object, in the first 16 updates with touches
-    and in one of 16 later ones; impacts : impacts, reported, found, or both; impacts_felt : impacts that a hand felt;
-    impacts_left_out : impacts while too many others were played, or not prepared in time.
-    """
-
-    updates: int = 0
-    fields_prepared: int = 0
-    gains_capped: int = 0
-    bodiless: tuple[str, ...] = ()
-    field_age_s: float = 0.0
-    field_latency_s: float = 0.0
-    fields_failed: int = 0
-    last_failure: str = ""
-    skipped: SkipCounts = SkipCounts()
-    touches_off_surface: int = 0
-    impacts: int = 0
-    impacts_felt: int = 0
-    impacts_left_out: int = 0
-
-
-@dataclass
-class Counts:
-    """Counts for `SkipCounts`, the number of capped gains, and whether a warning was given."""
-
-    unreachable_objects: int = 0
-    unreachable_touches: int = 0
-    changes_out_of_reach: int = 0
-    below_threshold: int = 0
-    silent_bands: int = 0
-    idle_hands: int = 0
-    unchanged_frames: int = 0
-    gains_capped: int = 0
-    has_warned_of_gains: bool = False
-
-    def skipped(self, rows_not_mixed: int) -> SkipCounts:
-        """Copy the present counts into a `SkipCounts`."""
-        not_skips = ("gains_capped", "has_warned_of_gains")
-        counted = {name: count for name, count in vars(self).items() if name not in not_skips}
-        return SkipCounts(rows_not_mixed=rows_not_mixed, **counted)
-
-
-class RemovedIds:
-    """The newest ids of removed objects or sources, for error messages."""
-
-    _MOST = 1000
-    """Bound on the memory, since a game may remove objects for hours."""
-
-    def __init__(self) -> None:
-        self._ids: dict[str, None] = {}
-
-    def add(self, removed_id: str) -> None:
-        """Store an id. An id that was added to the scene again needs no message, since it is known."""
-        self._ids.pop(removed_id, None)
-        self._ids[removed_id] = None
-        if len(self._ids) > self._MOST:
-            del self._ids[next(iter(self._ids))]
-
-    def hint(self, wanted_id: object) -> str:
-        """A sentence, after a blank, if the id was removed; else empty."""
-        if not isinstance(wanted_id, str) or wanted_id not in self._ids:
-            return ""
-        return f" {wanted_id!r} was removed; `add` puts it back, `spawn` a copy of a prefab."
-
-
-def require_hand(hand: object, hands: Sequence[str]) -> None:
-    """Raise a SessionError if this is none of the hands."""
-    if not isinstance(hand, str) or hand not in hands:  # an array would be compared element by element
-        raise SessionError(unknown_hand(hand, hands))
-
-
-def unknown_hand(hand: object, hands: Sequence[str]) -> str:
-    """The sentence for a name that is no hand."""
-    near = checks.did_you_mean(hand, hands, "Name all hands when the session is made (hands=), or call add_hand.")
-    return f"no hand {checks.represented(hand)}; this session has {', '.join(map(repr, hands))}. {near}"
-
-
-def unknown_source(source_id: str, source_ids: Sequence[str]) -> str:
-    """The sentence for an id that is not a source."""
-    known = ", ".join(map(repr, source_ids)) or "none: nothing in this scene vibrates"
-    near = checks.did_you_mean(source_id, source_ids)
-    return f"no source {checks.represented(source_id)}; the sources are {known}. {near}".rstrip()

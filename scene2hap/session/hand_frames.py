@@ -10,17 +10,17 @@ from numpy.typing import NDArray
 
 from scene2hap.contact.graph import ContactChange
 from scene2hap.propagation.live import LiveField, PathCostField
-from scene2hap.propagation.protocol import Excitation, follows_poses
 from scene2hap.session.audibility import SILENT, Audibility, CutoffCost
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
-from scene2hap.session.explain import Explainer, Explanation
-from scene2hap.session.fields.keeper import FieldProvider, keeper_of
-from scene2hap.session.frame import Counts, HapticFrame, SessionStats, Touch
-from scene2hap.session.hand_gains import AllGains, Felt, GainMethod, HandGains, Loudness, PrunedGains, TouchGains
+from scene2hap.session.explain import Explainer
+from scene2hap.session.explanation import Explanation
+from scene2hap.session.fields.requests import FieldProvider, FieldRequests
+from scene2hap.session.frame import Felt, HapticFrame, Touch
+from scene2hap.session.hand_gains import AllGains, GainMethod, HandGains, Loudness, PrunedGains, TouchGains
 from scene2hap.session.mix.sources import LoopRow, Sources
-from scene2hap.session.network import excitations_of
 from scene2hap.session.scene_state import SceneState
+from scene2hap.session.stats import Counts, SessionStats
 from scene2hap.session.user_profile import PersonalGains, UserProfile
 
 PeaksOf = Callable[[Sequence[LoopRow]], NDArray[np.float32]]
@@ -30,7 +30,9 @@ PeaksOf = Callable[[Sequence[LoopRow]], NDArray[np.float32]]
 class HandFrames:
     """Turns touches into gains, and skips updates that change nothing.
 
-    All inputs of the gains other than the touches are cached, and dropped when they change.
+    What the gains depend on besides the touches is cached, and dropped when its inputs change:
+    levels (sources, user), audibility (loops), cut-offs (field, audibility), method (field, levels, audibility, reach).
+    hands : names of the outputs; keeper : provides the field.
     """
 
     def __init__(
@@ -38,55 +40,31 @@ class HandFrames:
     ) -> None:
         self._config, self._state, self._sources, self._peaks = config, state, sources, peaks
         self._counts, self._n_updates = Counts(), 0
-        self._excitations: Sequence[Excitation] | None = None
         self._method: tuple[LiveField, GainMethod] | None = None
-        self._n_unreachable: int | None = None
         self._levels, self._are_levels_known = np.empty(0), False
         self._profile: UserProfile | None = None
-        self._hands = hands
+        self.hands: tuple[str, ...] = hands
         self._personal: PersonalGains | None = None
         self._audibility: Audibility | None = None
         self._loudness: Loudness | None = None
         self._cutoff: tuple[PathCostField, CutoffCost] | None = None
         self._felt: Felt = {}
         self._frame = self.silence()
+        # Whether `_frame` holds for the touches `_felt` as long as none of their objects moves.
         self._is_fresh = False
-        self._poses = state.poses if follows_poses(config.propagation) else None
-        self._pending: list[ContactChange] = []
-        self._must_request, self._are_sources_known = False, True
-        self._find_reach()
-        self.keeper: FieldProvider = keeper_of(config, state, self._known_excitations())
-        self._count_unreachable()
+        self._fields = FieldRequests(config, state, sources, self._counts)
+        self.keeper: FieldProvider = self._fields.keeper
 
     def apply(self, change: ContactChange, *, sources_changed: bool = False) -> None:
-        """Apply a change of contacts. `sources_changed` is true if sources were added or removed.
-
-        A game may add and remove many objects between two frames. The next `frame` handles all of them at once.
-        """
+        """Apply a change of contacts. `sources_changed` is true if sources were added or removed."""
         if sources_changed:
             self._forget_sources()
-        if sources_changed or self._bodies is not self._state.bodies:
-            self._are_sources_known = False
-        is_new = self._is_moved() or bool(change)
-        if not self._are_sources_known:
-            if is_new or sources_changed:
-                self._is_fresh = False
-                self._pending.append(change)
-                self._must_request = self._must_request or sources_changed or self._concerns_sources(change)
-            return
-        concerns_sources = self._concerns_sources(change)
-        if change.appeared or change.vanished:
-            self._reach.follow(change)
-            self._n_unreachable = None
-        if not is_new:
-            return
-        if concerns_sources or self._reach.concerns(change):
-            self._is_fresh = False
-            self._request_field()
-        else:
-            self._counts.changes_out_of_reach += 1
+        # Also if the model fails, which raises its error here if no worker prepares.
+        was_fresh, self._is_fresh = self._is_fresh, False
+        if not self._fields.apply(change, sources_changed=sources_changed):
+            self._is_fresh = was_fresh
 
-    def loops_came(self) -> None:
+    def loops_changed(self) -> None:
         """Drop caches that depend on the loops, after more loops became ready to be mixed."""
         self._audibility = self._loudness = self._method = None
         self._is_fresh = False
@@ -96,10 +74,7 @@ class HandFrames:
         self._are_levels_known = self._is_fresh = False
         if is_other_state:
             self._forget_sources()
-            if self._are_sources_known:
-                self._request_field()
-            else:
-                self._must_request = True
+            self._fields.states_changed()
 
     def use_profile(self, profile: UserProfile) -> None:
         """Use the levels of another person."""
@@ -108,7 +83,7 @@ class HandFrames:
 
     def use_hands(self, hands: tuple[str, ...]) -> None:
         """Use other hands. Those that remain keep their touches."""
-        self._hands = hands
+        self.hands = hands
         self._felt = {hand: self._felt[hand] for hand in hands if hand in self._felt}
         self.levels_changed()
 
@@ -126,7 +101,7 @@ class HandFrames:
                 self._frame = self.silence()
             else:
                 gained = self._gains_of_hands(felt)
-                self._frame = HapticFrame(gained.full, self._hands, self._sources.ids)
+                self._frame = HapticFrame(gained.full, self.hands, self._sources.ids)
         self.keeper.order()
         self._n_updates += 1
         return self._frame, gained
@@ -145,7 +120,7 @@ class HandFrames:
 
     def silence(self) -> HapticFrame:
         """A frame in which all gains are 0."""
-        return HapticFrame(self._nothing(), self._hands, self._sources.ids)
+        return HapticFrame(self._nothing(), self.hands, self._sources.ids)
 
     def wait(self, end: Deadline) -> bool:
         """Wait for the worker; false after the deadline."""
@@ -159,7 +134,7 @@ class HandFrames:
         self._catch_up()
         touches = self.felt.get(hand, [])
         levels = self._levels_at(hand)
-        gains = self._touch_gains(self.keeper.for_points(self._sources.ids, self._reach, len(touches)), Counts())
+        gains = self._touch_gains(self.keeper.for_points(self._sources.ids, self._fields.reach, len(touches)), Counts())
         peaks = self._known_audibility().peaks[:, 0]
         model, field = self._config.propagation, self.keeper.field
         explainer = Explainer(self._state, self._sources, model, field, gains, levels, peaks)
@@ -174,7 +149,7 @@ class HandFrames:
         if not touches or not self._sources.ids:
             return np.zeros((len(touches), len(self._sources.ids), self._config.bands.n_bands))
         levels = {hand: np.stack([*self._levels_at(hand).values()]) for hand in {touch.hand for touch in touches}}
-        field = self.keeper.for_points(self._sources.ids, self._reach, len(touches))
+        field = self.keeper.for_points(self._sources.ids, self._fields.reach, len(touches))
         cutoff = self._cutoff_of(field)
         limits = None if cutoff is None else cutoff.arrives(np.max([*levels.values()], axis=(0, 2)))
         given = self._touch_gains(field, Counts()).of([[touch] for touch in touches], limits)
@@ -192,53 +167,15 @@ class HandFrames:
             skipped=self._counts.skipped(rows_not_mixed),
         )
 
-    def _concerns_sources(self, change: ContactChange) -> bool:
-        return not self._config.skips_unreachable or self._reach.concerns(change)
-
-    def _is_moved(self) -> bool:
-        """Whether any object was moved, added or removed since the last call; False unless the model follows poses."""
-        if self._poses is None:
-            return False
-        before, self._poses = self._poses, self._state.poses
-        return self._poses != before
-
     def _catch_up(self) -> None:
         """Apply the additions and removals of objects and sources since the last frame."""
-        if self._are_sources_known:
-            return
-        pending, must_request = self._pending, self._must_request
-        self._pending, self._must_request, self._are_sources_known = [], False, True
-        self._find_reach()
-        if must_request or any(map(self._reach.concerns, pending)):
-            self._request_field()
-        else:
-            self._counts.changes_out_of_reach += len(pending)
-
-    def _find_reach(self) -> None:
-        """Find connected objects again."""
-        self._bodies, self._reach = self._state.bodies, self._state.reach(self._sources.ids)
-        self._bodiless = [x for x in self._sources.ids if x not in self._bodies]
-        self._method = self._n_unreachable = None
-        self._are_levels_known = False
+        if not self._fields.is_caught_up:
+            self._method, self._are_levels_known = None, False
+            self._fields.catch_up()
 
     def _forget_sources(self) -> None:
         """Drop caches that depend on the sources and their states."""
-        self._audibility = self._excitations = self._loudness = self._method = None
-
-    def _request_field(self) -> None:
-        self.keeper.request(self._known_excitations())
-        self._count_unreachable()
-
-    def _count_unreachable(self) -> None:
-        if self._config.skips_unreachable:
-            if self._n_unreachable is None:
-                self._n_unreachable = len(self._bodies) - self._reach.n_without(self._bodiless)
-            self._counts.unreachable_objects += self._n_unreachable
-
-    def _known_excitations(self) -> Sequence[Excitation]:
-        if self._excitations is None:
-            self._excitations = excitations_of(self._sources.active_rows(), self._state.bodies, self._state.haptics)
-        return self._excitations
+        self._audibility = self._loudness = self._method = None
 
     def _is_unchanged(self, felt: Felt, moved: Collection[str]) -> bool:
         if not (self._is_fresh and self._config.skip.unchanged_frames and felt == self._felt):
@@ -250,13 +187,13 @@ class HandFrames:
         if not felt:
             silence = self._nothing()
             if self._config.skip.idle_hands:
-                self._counts.idle_hands += len(self._hands)
+                self._counts.idle_hands += len(self.hands)
             return HandGains(lambda: silence, silence)
         self._known_levels()
-        field = self.keeper.for_touches(self._sources.ids, self._reach)
+        field = self.keeper.for_touches(self._sources.ids, self._fields.reach)
         if self._method is None or self._method[0] is not field:
             self._method = (field, self._new_method(field))
-        gained = self._method[1].of_hands(self._hands, felt)
+        gained = self._method[1].of_hands(self.hands, felt)
         return gained if self._personal is None else self._personal.applied(gained)
 
     def _new_method(self, field: LiveField) -> GainMethod:
@@ -287,11 +224,11 @@ class HandFrames:
             return None
         audibility = self._known_audibility()
         if self._cutoff is None or self._cutoff[0] is not field:
-            self._cutoff = (field, CutoffCost(field, audibility, self._known_excitations()))
+            self._cutoff = (field, CutoffCost(field, audibility, self._fields.excitations))
         return self._cutoff[1]
 
     def _nothing(self) -> NDArray[np.float32]:
-        return np.zeros((len(self._hands), len(self._sources.ids), self._config.bands.n_bands), dtype=np.float32)
+        return np.zeros((len(self.hands), len(self._sources.ids), self._config.bands.n_bands), dtype=np.float32)
 
     def _known_levels(self) -> NDArray[np.float64]:
         """The factor of each source's signal (n_sources,) [-]."""
@@ -300,7 +237,7 @@ class HandFrames:
             self._personal = None
             if self._profile is not None:
                 config, rows = self._config, self._sources.active_rows()
-                self._personal = PersonalGains(self._profile, config.actuator.name, self._hands, rows, config.bands)
+                self._personal = PersonalGains(self._profile, config.actuator.name, self.hands, rows, config.bands)
                 levels *= self._personal.highest
             if not np.array_equal(levels, self._levels):
                 self._levels, self._loudness, self._method = levels, None, None
@@ -310,8 +247,8 @@ class HandFrames:
     def _levels_at(self, hand: str) -> dict[str, NDArray[np.float64]]:
         """The level of each source at a hand, by band (n_bands,) [-]."""
         levels = np.repeat(self._known_levels()[:, None], self._config.bands.n_bands, axis=1)
-        if self._personal is not None and hand in self._hands:
-            levels *= self._personal.shares[self._hands.index(hand)]
+        if self._personal is not None and hand in self.hands:
+            levels *= self._personal.shares[self.hands.index(hand)]
         return dict(zip(self._sources.ids, levels, strict=True))
 
     def _touch_gains(self, field: LiveField, counts: Counts) -> TouchGains:
@@ -319,7 +256,7 @@ class HandFrames:
         return TouchGains(
             field,
             (len(self._sources.ids), config.bands.n_bands),
-            self._reach,
+            self._fields.reach,
             counts,
             skips_unreachable=config.skips_unreachable,
             limit=None if config.gain_limit_db is None else 10 ** (config.gain_limit_db / 20),

@@ -22,12 +22,9 @@ from scene2hap.propagation.live import CostsByHand, LiveField, PathCostField, To
 from scene2hap.propagation.protocol import checked_gains
 from scene2hap.session.audibility import SILENT, Audibility, CutoffCost, within
 from scene2hap.session.config import MAX_GAIN_DB, SkipConfig
-from scene2hap.session.frame import Counts, Gains, Touch
+from scene2hap.session.frame import Felt, Gains, Touch
 from scene2hap.session.reach import Reach
-
-Felt = dict[str, list[Touch]]
-"""Touches by hand, in the order of the hands; hands without touches are left out."""
-
+from scene2hap.session.stats import Counts
 
 HandQuery = tuple[list[TouchedPoint], frozenset[int]]
 """The touched points of one hand at which a field is evaluated, and the columns of the sources that reach them."""
@@ -204,9 +201,9 @@ class AllGains:
         if self._skip.idle_hands:
             self._counts.idle_hands += len(hands) - len(felt)
             mixed, columns = worth(given)
-            mixed = _among(mixed, hands, felt)
+            mixed = _with_idle_hands(mixed, hands, felt)
         else:
-            mixed, columns = worth(_among(given, hands, felt))
+            mixed, columns = worth(_with_idle_hands(given, hands, felt))
         columns_or_all = columns if self._skip.silent_bands else None
         return HandGains(lambda: _reported(given, hands, felt), mixed, columns_or_all)
 
@@ -251,23 +248,23 @@ class PrunedGains:
                 everything = gains.path_costs(self._field, touches, queries, self._arrives)
             else:
                 # The contacts of that frame are gone, so only the costs that were computed then are valid.
-                everything = _without(costs, cutoff)
+                everything = _cut_off(costs, cutoff)
             return _reported(self._loudness.applied(gains.at(self._field, everything)), hands, felt)
 
-        return HandGains(full, _among(mixed, hands, felt), columns)
+        return HandGains(full, _with_idle_hands(mixed, hands, felt), columns)
 
 
-def _without(costs: CostsByHand, limits: Sequence[float]) -> CostsByHand:
+def _cut_off(costs: CostsByHand, limits: Sequence[float]) -> CostsByHand:
     """Copy path costs; those beyond their limits become infinite."""
     return [[x if x <= limit else math.inf for x, limit in zip(row, limits, strict=True)] for row in costs]
 
 
 def _reported(given: Gains, hands: tuple[str, ...], felt: Felt) -> Gains:
     """Gains as `HapticFrame` reports them: 0 below -140 dB, whatever the model. A copy."""
-    return _among(np.where(given < SILENT, np.float32(0.0), given), hands, felt)
+    return _with_idle_hands(np.where(given < SILENT, np.float32(0.0), given), hands, felt)
 
 
-def _among(given: Gains, hands: tuple[str, ...], felt: Felt) -> Gains:
+def _with_idle_hands(given: Gains, hands: tuple[str, ...], felt: Felt) -> Gains:
     """Gains of all hands, from those of the hands that touch something; 0 for the others."""
     if len(felt) == len(hands):
         return given

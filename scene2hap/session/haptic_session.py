@@ -1,9 +1,19 @@
 """A session: plays the vibration of a scene at the hands that touch it.
 
-Call `render` on the audio thread and everything else on the game's. `update` keeps the contact graph up to date and
-turns touches into gains. After a change of contacts it requests a new propagation field, unless the model has a live
-field. `render` mixes the sources' loops with the gains. Nothing here uses a network. `update` never waits for a model,
-and `render` never waits for `update`.
+Call `render` on the audio thread and everything else on the game's. Nothing here uses a network. `update` never waits
+for a model, and `render` never waits for `update`. A frame, in `update`:
+
+1. The touches are grouped by hand. Loops that a worker has prepared are added to the mix.
+2. Objects move, and their contacts change. If this concerns a source, a new propagation field is requested, unless the
+   model has a live field.
+3. Sources start and stop, in cycles and with the contacts that they need.
+4. The field is evaluated at the touches. The gains, times the levels of sources and user, go to the mixer.
+5. Objects that have landed add bursts to the mix.
+6. The sink gets the frame, which resets its watchdog. Likely mistakes are named.
+
+Each part owns its state: `SceneState` the objects, their poses and contacts; `Sources` states, switches and levels;
+`Switching` starts and stops that are under way; `HandFrames` the field, the touches and the gains; `Playback` the
+loops, the clock and the pause; `Impacts` motions and bursts; `Output` the sink and its safety layer.
 """
 
 from __future__ import annotations
@@ -22,7 +32,6 @@ from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.arguments import given_pair
 from scene2hap.bundle.contents import require_same_scene
-from scene2hap.bundle.differences import changed_objects
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls, read_only
 from scene2hap.common.counted import counted
@@ -43,23 +52,18 @@ from scene2hap.session.arguments import (
     given_poses,
     given_stamp,
     given_strike,
-    given_touches,
     require_addable,
     require_correction,
-    require_pose,
+    require_moves,
     require_prefab,
-    require_settings,
-    touches_by_hand,
 )
-from scene2hap.session.config import SessionConfig
+from scene2hap.session.config import SessionConfig, require_settings
 from scene2hap.session.deadline import Deadline
-from scene2hap.session.explain import Explanation, FeltSource
-from scene2hap.session.frame import GivenTouches, HapticFrame, SessionStats, Touch, require_hand
+from scene2hap.session.explanation import Explanation, FeltSource
+from scene2hap.session.frame import Felt, GivenTouches, HapticFrame, Touch, given_touches, touches_by_hand
 from scene2hap.session.hand_frames import HandFrames
 from scene2hap.session.impacts.felt_impacts import Impact, Impacts
 from scene2hap.session.likely_mistakes import (
-    NOT_STARTED,
-    NOT_UPDATED,
     LikelyMistakes,
     warn_if_not_baked,
     warn_if_other_actuator,
@@ -68,11 +72,14 @@ from scene2hap.session.likely_mistakes import (
 )
 from scene2hap.session.mix.output import Output
 from scene2hap.session.mix.playback import Playback
-from scene2hap.session.mix.sources import Level, LoopRow, SourceInfo, SourceProgress, Sources
+from scene2hap.session.mix.sources import Level, SourceInfo, SourceProgress, Sources
 from scene2hap.session.mix.starts_and_stops import Switching
+from scene2hap.session.object_changes import ObjectChanges
 from scene2hap.session.prepared_shapes import PreparedShapes
 from scene2hap.session.proximity import Proximity
 from scene2hap.session.scene_state import SceneState
+from scene2hap.session.stats import SessionStats
+from scene2hap.session.unknown_names import require_hand
 from scene2hap.session.user_profile import UserProfile
 
 if TYPE_CHECKING:
@@ -122,7 +129,7 @@ class HapticSession:
             scene, bundle = given_pair(scene, bundle)
         require_same_scene(scene, bundle)
         self._config = SessionConfig.parse(config).on_actuator(bundle.actuator)
-        self._hands = checks.names("hands", hands)
+        hands = checks.names("hands", hands)
         self._bundle = bundle
         warn_if_not_baked(scene, bundle)
         warn_if_other_actuator(bundle, self.config.actuator)
@@ -130,15 +137,15 @@ class HapticSession:
         self._sources = Sources()
         for object_id, loops in bundle.loops.items():
             if loops:
-                self._sources.add(object_id, loops, bundle.objects.get(object_id), _level(bundle, object_id))
+                self._sources.add(object_id, loops, bundle.objects.get(object_id), Level.of(bundle, object_id))
         follows_outlines = bool(getattr(self.config.propagation, "follows_outlines", False))
         self._state = SceneState(scene, bundle, follows_outlines=follows_outlines)
         in_background = self.config.prepare == "background"
         self._shapes = PreparedShapes(is_wanted=scene.contacts is None, in_background=in_background)
         self._shapes.order(item.geometry.mesh for item in scene.objects)
-        self._playback = Playback(self.config, self._sources.rows(), self.hands)
+        self._playback = Playback(self.config, self._sources.rows(), hands)
         self._switching = Switching(self._sources, self._playback, self._state, self.config.sample_rate_hz)
-        self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
+        self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, hands)
         self._mistakes = LikelyMistakes(self._state)
         # No reference to the session itself: only the garbage collector could free such a cycle.
         frames = self._hand_frames
@@ -156,7 +163,7 @@ class HapticSession:
     @property
     def hands(self) -> tuple[str, ...]:
         """Names of the outputs, in the order of channels."""
-        return self._hands
+        return self._hand_frames.hands
 
     @property
     def source_ids(self) -> tuple[str, ...]:
@@ -211,14 +218,14 @@ class HapticSession:
         self._output.require_own_process()
         if moved is not None and type(moved) is not dict:
             moved, touches = given_frame(moved, touches)
-        felt = touches_by_hand(touches, self._hands, self._state)
+        felt = touches_by_hand(touches, self._hand_frames.hands, self._state)
         stamp = self._stamp(at_sample)
         if self._playback.take_prepared():
-            self._hand_frames.loops_came()
+            self._hand_frames.loops_changed()
         if moved:
             self._impacts.begin(moved, stamp)
         if moved or contacts is not None:
-            self._hand_frames.apply(self._changed(moved or {}, contacts))
+            self._hand_frames.apply(self._move(moved or {}, contacts))
         if self._switching.advance(stamp):
             self._hand_frames.levels_changed()
         frame, gained = self._hand_frames.frame(felt, moved or (), is_paused=self._playback.is_paused)
@@ -226,13 +233,7 @@ class HapticSession:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
         self._impacts.follow(moved, felt, stamp)
         self._output.feed(frame)
-        if (problem := self._output.untold_problem) is not None:
-            self._mistakes.in_sink(problem)
-        if felt:
-            self._mistakes.in_sources(self._sources.ids)
-            self._mistakes.in_touches(felt)
-            if self._output.is_unused and not self._playback.position:
-                self._mistakes.in_output()
+        self._warn_of_mistakes(felt)
         return frame
 
     def touches_at(
@@ -255,15 +256,13 @@ class HapticSession:
         above 1 m, or moved is no mapping; UnknownObject: a moved object is not in the scene; SceneError: another type
         than a pose.
         """
-        points = given_points(points_m, self._hands)
+        points = given_points(points_m, self.hands)
         within_m = checks.number("within_m", within_m, "m", at_least=0.0, at_most=1.0, error=SessionError)
         depth_m = checks.number("depth_m", depth_m, "m", at_least=0.0, at_most=1.0, error=SessionError)
         poses = self._state.poses
         if moved is not None:
             moved = given_poses(moved)
-            for object_id, pose in moved.items():
-                self._state.require(object_id)
-                require_pose(object_id, pose)
+            require_moves(moved, self._state)
             poses = {**poses, **moved}
         touched = self._hand_frames.felt
         return self._proximity.touches(points, self._state.objects, poses, within_m, depth_m, touched)
@@ -310,7 +309,9 @@ class HapticSession:
         require_addable(object, haptics, loops)
         if haptics is None and loops is None:
             haptics, loops = self._bundle.objects.get(object.id), self._bundle.loops.get(object.id)
-        self._add(object, haptics, loops or {}, _level(self._bundle, object.id))
+        loops = loops or {}
+        self._object_changes.add(object, haptics, loops, Level.of(self._bundle, object.id))
+        self._mistakes.in_added(object.id, haptics, loops)
 
     def spawn(self, prefab: HapticBundle, object_id: str, pose: Pose) -> None:
         """Add a copy of a prefab, which is a bundle of one object, as `bake_object` makes it.
@@ -323,7 +324,8 @@ class HapticSession:
         (original,) = prefab.snapshot.objects
         copy = replace(original, id=object_id, name=object_id, pose=pose)
         haptics, loops = prefab.objects.get(original.id), prefab.loops.get(original.id, {})
-        self._add(copy, haptics, loops, _level(prefab, original.id))
+        self._object_changes.add(copy, haptics, loops, Level.of(prefab, original.id))
+        self._mistakes.in_added(object_id, haptics, loops)
 
     def use_bundle(self, bundle: HapticBundle) -> None:
         """Play a corrected bundle of the same scene: loops that differ are cross-faded, levels change at once.
@@ -339,21 +341,7 @@ class HapticSession:
         warn_if_other_actuator(bundle, self.config.actuator)
         warn_of_pending_corrections(bundle)
         before, self._bundle = self._bundle, bundle
-        # An id of the bundle may be that of another object now, which the game spawned or added with data of its own.
-        haptics = self._state.haptics
-        own = {x for x in self._state.objects if haptics.get(x) == before.objects.get(x)}
-        for object_id in changed_objects(before, bundle):
-            if object_id in own:
-                self._exchange(object_id)
-        for object_id in bundle.loops:
-            if object_id in own and object_id in self._sources:
-                old, new = before.gain_db(object_id), bundle.gain_db(object_id)
-                mute = bundle.is_muted(object_id)
-                self.set_source(
-                    object_id,
-                    gain_db=None if new == old else new,
-                    mute=None if mute == before.is_muted(object_id) else mute,
-                )
+        self._object_changes.correct(before, bundle)
 
     def remove(self, object_id: str) -> None:
         """Remove an object from the scene; its vibration fades out.
@@ -363,16 +351,7 @@ class HapticSession:
         self._state.require(object_id)
         if len(self._state.objects) == 1:
             raise SessionError(f"{object_id!r} is the last object of the scene; add another one before removing it.")
-        self._take_out(object_id)
-        self._play_sources()
-
-    def _take_out(self, object_id: str) -> None:
-        """Remove an object, whose loops play on until `_play_sources`."""
-        change = self._state.remove(object_id)
-        is_source = object_id in self._sources
-        if is_source:
-            self._sources.remove(object_id)
-        self._hand_frames.apply(change, sources_changed=is_source)
+        self._object_changes.remove(object_id)
 
     def add_hand(self, name: str) -> None:
         """Add an output. A sink that is running is faded out and reopened with one channel more.
@@ -456,10 +435,8 @@ class HapticSession:
         felt = sorted(
             map(self._with_running, explained.felt), key=lambda one: -(one.gain_db + one.level_db + one.running_db)
         )
-        waiting = NOT_STARTED if self._output.sink is not None and not self._output.is_started else self._output.problem
-        if waiting is None and self._output.is_late:
-            waiting = NOT_UPDATED.format(self.config.watchdog_s)
-        reasons = explained.reasons if waiting is None else (waiting, *explained.reasons)
+        of_sink = self._output.why_silent
+        reasons = explained.reasons if of_sink is None else (of_sink, *explained.reasons)
         return replace(explained, felt=tuple(felt), impacts=self._impacts.felt_by(hand), reasons=reasons)
 
     def _with_running(self, felt: FeltSource) -> FeltSource:
@@ -468,7 +445,7 @@ class HapticSession:
         if source.transition_row is None:
             return felt
         amplitude = self._switching.running(felt.source_id).amplitude
-        return felt.while_passing(amplitude, is_start=source.is_running)
+        return felt.during_transition(amplitude, is_start=source.is_running)
 
     @property
     def is_current(self) -> bool:
@@ -577,7 +554,7 @@ class HapticSession:
         Fractions of a sample are carried to the next call, so that 90 calls of 1/90 s give exactly one second.
         Raises: SessionError.
         """
-        return self.render(self._whole.of(seconds))
+        return self.render(self._whole_frames.of(seconds))
 
     def _mixed(self, n_frames: int) -> Block:
         return self._playback.render(given_frames(n_frames))
@@ -662,50 +639,20 @@ class HapticSession:
         return self._output.safety_stats
 
     @cached_property
+    def _object_changes(self) -> ObjectChanges:
+        parts = (self._state, self._shapes, self._sources, self._switching, self._hand_frames, self._playback)
+        return ObjectChanges(*parts)
+
+    @cached_property
     def _proximity(self) -> Proximity:
         return Proximity()
 
     @cached_property
-    def _whole(self) -> WholeFrames:
+    def _whole_frames(self) -> WholeFrames:
         return WholeFrames(self.config.sample_rate_hz)
 
-    def _add(
-        self, item: SceneObject, haptics: ObjectHaptics | None, loops: Mapping[str, HapticLoop], level: Level
-    ) -> None:
-        self._put_in(item, haptics, loops, level)
-        self._play_sources()
-        self._mistakes.in_added(item.id, haptics, loops)
-
-    def _put_in(
-        self, item: SceneObject, haptics: ObjectHaptics | None, loops: Mapping[str, HapticLoop], level: Level
-    ) -> None:
-        """Add an object, whose loops are silent until `_play_sources`."""
-        change = self._state.add(item, haptics)
-        self._shapes.order([item.geometry.mesh])
-        if loops:
-            self._sources.add(item.id, loops, haptics, level)
-        self._hand_frames.apply(change, sources_changed=bool(loops))
-
-    def _exchange(self, object_id: str) -> None:
-        """Replace the data of an object by the bundle's present data, at the same pose."""
-        item = replace(self._state.objects[object_id], pose=self._state.poses[object_id])
-        before, bundle = self._sources.get(object_id), self._bundle
-        progress = None if before is None else self._switching.progress(object_id)
-        self._take_out(object_id)
-        haptics, loops = bundle.objects.get(object_id), bundle.loops.get(object_id, {})
-        self._put_in(item, haptics, loops, _level(bundle, object_id))
-        after, instead = self._sources.get(object_id), None
-        if before is not None and after is not None and progress is not None:
-            self._switching.go_on(object_id, before, progress)
-            instead = after.rows[after.state], before.rows[before.state]
-            self._hand_frames.levels_changed(is_other_state=True)
-        self._play_sources(instead)
-
-    def _play_sources(self, instead: tuple[LoopRow, LoopRow] | None = None) -> None:
-        """Play the loops of all sources; `instead` is a new row, and the one that it replaces."""
-        self._playback.change_rows(self._sources.rows(), self._playback.now, instead)
-
     def _stamp(self, at_sample: int | None) -> int:
+        """Return the position on `render`'s clock from which an update counts, and store it."""
         playback = self._playback
         stamp = playback.now
         if at_sample is not None:
@@ -713,37 +660,38 @@ class HapticSession:
         playback.updated_at = stamp
         return stamp
 
+    def _warn_of_mistakes(self, felt: Felt) -> None:
+        if (problem := self._output.untold_problem) is not None:
+            self._mistakes.in_sink(problem)
+        if felt:
+            self._mistakes.in_sources(self._sources.ids)
+            self._mistakes.in_touches(felt)
+            if self._output.is_unused and not self._playback.position:
+                self._mistakes.in_output()
+
     def _use_profile(self, user: UserProfile) -> None:
         self._user = user
         self._hand_frames.use_profile(user)
         self._impacts.use_profile(user)
-        limits = user.limits(self._hands, self.config.actuator.name)
+        limits = user.limits(self.hands, self.config.actuator.name)
         self._playback.hold(limits)
         self._output.hold(limits)
-        warn_if_other_hands(tuple(user.hands), self._hands)
+        warn_if_other_hands(tuple(user.hands), self.hands)
 
     def _use_hands(self, hands: tuple[str, ...]) -> None:
-        self._hands = hands
         self._hand_frames.use_hands(hands)
         if self._user is not None:
             self._use_profile(self._user)
 
-    def _changed(self, moved: Mapping[str, Pose], contacts: Sequence[Contact] | None) -> ContactChange:
+    def _move(self, moved: Mapping[str, Pose], contacts: Sequence[Contact] | None) -> ContactChange:
         self._mistakes.in_moves(moved)
-        try:
-            if contacts is None:
-                return self._state.graph.update(moved)
+        if contacts is not None:
             contacts = given_contacts(contacts)
+        try:
             change = self._state.graph.update(moved, contacts=contacts)
-            self._mistakes.in_contacts(contacts)
-            return change
         except SceneError:
-            for object_id, pose in moved.items():
-                self._state.require(object_id)
-                require_pose(object_id, pose)
+            require_moves(moved, self._state)  # names the object, and says how to write a pose
             raise
-
-
-def _level(bundle: HapticBundle, object_id: str) -> Level:
-    """Return a new knob at the level that a bundle has for a source."""
-    return Level(bundle.gain_db(object_id), bundle.is_muted(object_id))
+        if contacts is not None:
+            self._mistakes.in_contacts(contacts)
+        return change

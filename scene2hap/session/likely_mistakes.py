@@ -29,12 +29,13 @@ from scene2hap.bundle.pending_corrections import (
 from scene2hap.common.counted import counted, first_of
 from scene2hap.common.warning import warn_of
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics
+from scene2hap.scene.geometry import Vector
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.plausibility.contact_normals import are_reversed
 from scene2hap.scene.pose import Pose, in_own
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.session.frame import Touch
-from scene2hap.session.hand_gains import Felt
+from scene2hap.session.frame import Felt, Touch
+from scene2hap.session.mix.output import NOT_STARTED
 from scene2hap.session.network import body_of
 from scene2hap.session.scene_state import SceneState
 
@@ -48,15 +49,9 @@ wrong points continues to do so."""
 MOST_NAMED = 10
 """Most objects that a session names: a game may spawn thousands, and Python stores the text of each warning."""
 
-NOT_STARTED = "The sink plays nothing: call start(), or use the session in a `with` block."
-
-NOT_UPDATED = "The sink is silent, since no update came for {:g} s: call it in each frame, changed or not."
-
 UNPLAYED = 50
 """Updates with touches before a sink that was never started is named: a second of a slow game. A game may update a few
 times before it starts the sink."""
-
-Point = tuple[float, float, float]
 
 _MOST_POSES = 100
 # |cos| of half of 150 and of 30 degrees: no game rotates objects by more in a frame (assumed).
@@ -140,7 +135,9 @@ class LikelyMistakes:
 
     def in_points(self, touches: Sequence[Touch]) -> None:
         """Warn about the first point of `would_feel` that is too far off. Warns: SceneWarning."""
-        for touch in () if self._is_point_named else touches[:LOOKED_AT]:
+        if self._is_point_named:
+            return
+        for touch in touches[:LOOKED_AT]:
             off_m = self._off_m(touch.object_id, touch.point_m)
             if off_m > FAR_M:
                 self._is_point_named = True
@@ -162,7 +159,7 @@ class LikelyMistakes:
             self._is_sink_named = True
             warn_of(f"{problem} Give the sink an `on_event` to get such messages yourself.")
 
-    def in_strike(self, object_id: str, point_m: Point) -> None:
+    def in_strike(self, object_id: str, point_m: Vector) -> None:
         """Warn about the first strike that is too far off. Warns: SceneWarning."""
         if self._is_strike_named:
             return
@@ -201,7 +198,7 @@ class LikelyMistakes:
             f"bundle has them, or bake it alone, in Python by `bake_object`, and add it by `spawn`.{last}"
         )
 
-    def _off_m(self, object_id: str, point_m: Point) -> float:
+    def _off_m(self, object_id: str, point_m: Vector) -> float:
         """Distance of a point from the box around an object [m]. Searching the surface would take too long."""
         state = self._state
         own_m = in_own(point_m, state.graph.pose(object_id))
@@ -215,7 +212,7 @@ class LikelyMistakes:
         )
 
 
-def _far(object_id: str, point_m: Point, off_m: float) -> str:
+def _far(object_id: str, point_m: Vector, off_m: float) -> str:
     point = ", ".join(f"{x:g}" for x in point_m)
     return (
         f"{object_id!r} at ({point}), {off_m:.3g} m off the box around it, more than {FAR_M} m; point_m is in the "

@@ -17,9 +17,9 @@ from scene2hap.scene.geometry import Vector
 from scene2hap.scene.objects import VERTICAL, Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.session.frame import RemovedIds
 from scene2hap.session.network import BoxCentres, Corners, PlatePoses, body_of, own_half_m, own_middle_m, rigid_body_of
 from scene2hap.session.reach import Reach, reach_over
+from scene2hap.session.unknown_names import RemovedIds
 
 Thing = TypeVar("Thing")
 
@@ -83,10 +83,7 @@ class SceneState:
         """Add an object. Raises: SceneError: its id is taken."""
         body = self._body(item, haptics)
         change = self.graph.update({}, added=[item])
-        self.objects = _with(self.objects, item.id, item)
-        self.ids = frozenset(self.objects)
-        self.haptics = _with(self.haptics, item.id, haptics)
-        self.bodies = _with(self.bodies, item.id, body)
+        self._put(item.id, item, haptics, body)
         return change
 
     def _body(self, item: SceneObject, haptics: ObjectHaptics | None) -> Body | None:
@@ -95,14 +92,17 @@ class SceneState:
     def remove(self, object_id: str) -> ContactChange:
         """Remove an object. Raises: UnknownObject."""
         change = self.graph.update({}, removed=[object_id])
-        self.objects = _with(self.objects, object_id, None)
-        self.ids = frozenset(self.objects)
-        self.haptics = _with(self.haptics, object_id, None)
-        self.bodies = _with(self.bodies, object_id, None)
+        self._put(object_id, None, None, None)
         self._removed.add(object_id)
         # A copy, since another thread may still write to the former mapping.
         self._corners = _with(self._corners, object_id, None)
         return change
+
+    def _put(self, object_id: str, item: SceneObject | None, haptics: ObjectHaptics | None, body: Body | None) -> None:
+        self.objects = _with(self.objects, object_id, item)
+        self.ids = frozenset(self.objects)
+        self.haptics = _with(self.haptics, object_id, haptics)
+        self.bodies = _with(self.bodies, object_id, body)
 
     def middle_m(self, object_id: str) -> Vector:
         """Middle of the box around an object, in its own frame [m]."""

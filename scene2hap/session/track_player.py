@@ -20,8 +20,8 @@ from scene2hap.scene.geometry import vector
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session import HapticFrame, HapticSession, Touch
-from scene2hap.session.frame import unknown_hand
 from scene2hap.session.touch_track import LiftStep, MoveStep, SourceStep, Step, TouchStep, TouchTrack
+from scene2hap.session.unknown_names import unknown_hand
 
 MAX_UPDATE_RATE_HZ = 1000.0
 """Assumed: trackers and haptic loops run at no more than 1 kHz."""

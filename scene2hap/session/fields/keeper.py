@@ -1,4 +1,4 @@
-"""Provides the propagation field to evaluate: the newest one that a worker has prepared, or a live field.
+"""Provides the newest field that a worker has prepared.
 
 Call all methods on the game's thread. The worker ends with the keeper.
 """
@@ -7,18 +7,15 @@ from __future__ import annotations
 
 import time
 import weakref
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from threading import Thread
-from typing import Protocol
 
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import failure_of
 from scene2hap.haptics import Bands
 from scene2hap.propagation.controls import NoPropagation
-from scene2hap.propagation.exponential_plate import ExponentialPlate
-from scene2hap.propagation.live import LiveField, LiveModel, SucceedingField, TouchedPoint, live_model
+from scene2hap.propagation.live import TouchedPoint
 from scene2hap.propagation.protocol import (
-    Body,
     ContactNetwork,
     Excitation,
     ExpectantField,
@@ -26,72 +23,16 @@ from scene2hap.propagation.protocol import (
     PropagationModel,
     follows_poses,
 )
-from scene2hap.propagation.reference import FeltNear
-from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.fields.prepared import FieldInUse, LastField
 from scene2hap.session.fields.worker import FieldRequest, FieldWorker, PreparedField, WorkerSignal
-from scene2hap.session.frame import SessionStats
 from scene2hap.session.reach import Reach
 from scene2hap.session.scene_state import SceneState
-
-_MANY = 100
-"""Number of points from which a prepared field is used for a map. A live field searches from each point, up to where
-nothing is felt, a prepared field from each source. The more sources, the longer either takes: they take equally long at
-10 to 350 points in furnished rooms and on floors of 100 to 1,000 objects with 4 to 549 sources. In rooms with 2 or 3
-sources, of which few points feel any, a field pays later or never; it takes 1 to 4 ms there."""
+from scene2hap.session.stats import SessionStats
 
 
 class FieldWarning(RuntimeWarning):
     """The model could not prepare a field of the present scene."""
-
-
-class FieldProvider(Protocol):
-    """Provides the field of the present scene."""
-
-    @property
-    def field(self) -> PropagationField | LiveField:
-        """The field in use, as the model made it."""
-        ...
-
-    @property
-    def is_current(self) -> bool:
-        """Whether the field in use is that of the newest scene state."""
-        ...
-
-    @property
-    def failure(self) -> str:
-        """A sentence: why there is no newer field, though none is being prepared; empty if the model did not fail."""
-        ...
-
-    @property
-    def stats(self) -> SessionStats:
-        """The counters of fields; all others are 0."""
-        ...
-
-    def request(self, excitations: Sequence[Excitation]) -> None:
-        """Request a field for the present scene."""
-        ...
-
-    def order(self) -> None:
-        """Pass the newest request to the worker. Call it at the end of an update, so as not to slow down the update."""
-        ...
-
-    def take(self) -> bool:
-        """Use the newest prepared field. Returns false if there is no newer one."""
-        ...
-
-    def wait(self, end: Deadline) -> bool:
-        """Wait until no field is being prepared, and use the newest one. Returns false after the deadline."""
-        ...
-
-    def for_touches(self, source_ids: tuple[str, ...], reach: Reach) -> LiveField:
-        """The field in use at touches, for these sources and connected objects. It is another one after a change."""
-        ...
-
-    def for_points(self, source_ids: tuple[str, ...], reach: Reach, n_points: int) -> LiveField:
-        """See `for_touches`; for points that no hand touches, so that no worker prepares their objects."""
-        ...
 
 
 class FieldKeeper:
@@ -122,10 +63,13 @@ class FieldKeeper:
         self._thread: Thread | None = None
         self._must_expect = self._is_expectant = False
         self._for_touches: tuple[FieldInUse, tuple[str, ...], Reach] | None = None
+        # Number of the last request with a field of all objects or an error, number of the last request for the worker,
+        # and how many orders the worker got.
         self._n_answered = self._n_ordered = self._n_put = 0
         self._n_prepared = self._n_failed = 0
         self._last_failure, self._latency_s = "", 0.0
-        self._failure, self._is_refused = "", False
+        self.failure: str = ""
+        """See `FieldProvider`."""
         before = self._request(0, excitations)
         self._whole = PreparedField(NoPropagation().prepare(ContactNetwork({}), excitations, bands), before)
         self.in_use: PreparedField = self._whole
@@ -142,11 +86,6 @@ class FieldKeeper:
     def is_current(self) -> bool:
         """Whether the field in use was prepared for the newest scene state."""
         return self.in_use.request is self._requested
-
-    @property
-    def failure(self) -> str:
-        """See `FieldProvider`."""
-        return self._failure if self._is_refused else ""
 
     @property
     def stats(self) -> SessionStats:
@@ -224,7 +163,7 @@ class FieldKeeper:
             return True
         request, problem = answer
         self._n_answered = request.number
-        self._note(problem)
+        self._note_failure(problem)
         return False
 
     def wait(self, end: Deadline) -> bool:
@@ -257,7 +196,7 @@ class FieldKeeper:
         if self._for_touches is not None:
             self._for_touches[0].use(found, self._whole)
         self._n_prepared += 1
-        self._is_refused = False
+        self.failure = ""
         if request is not before:
             self._latency_s = time.monotonic() - request.requested_at_s
 
@@ -267,15 +206,15 @@ class FieldKeeper:
             expected = self.in_use.expected
             self._must_expect = not expected.issuperset([object_id for object_id, _ in touched])
 
-    def _note(self, problem: Exception) -> None:
+    def _note_failure(self, problem: Exception) -> None:
         self._n_failed += 1
         self._last_failure = failure_of(problem)
         instead = "the last one plays on" if self._n_prepared else "each source is felt on itself alone"
-        self._failure = f"The model could not prepare a field, so that {instead}: {self._last_failure}"
+        failure = f"The model could not prepare a field, so that {instead}: {self._last_failure}"
         # Once until a field is prepared again, since a game may change its scene in every frame.
-        if not self._is_refused:
-            warn_of(self._failure, FieldWarning)
-        self._is_refused = True
+        if not self.failure:
+            warn_of(failure, FieldWarning)
+        self.failure = failure
 
     def _put(self, order: FieldRequest | WorkerSignal) -> None:
         if self._thread is None or not self._thread.is_alive():
@@ -283,83 +222,3 @@ class FieldKeeper:
             weakref.finalize(self, self._worker.orders.put, WorkerSignal.END)
         self._n_put += 1
         self._worker.orders.put(order)
-
-
-class LiveKeeper:
-    """Provides a live field, which is never outdated. It is replaced when sources or objects are added or removed.
-
-    Raises: the errors of the model.
-    """
-
-    is_current = True
-    failure = ""
-
-    def __init__(self, model: LiveModel, bands: Bands, state: SceneState, excitations: Sequence[Excitation]) -> None:
-        self._model, self._bands, self._state = model, bands, state
-        self._n_requests = 0
-        self._made_for: tuple[Mapping[str, Body], Sequence[Excitation]] | None = None
-        self._mapped: tuple[int, PropagationField] | None = None
-        self.request(excitations)
-
-    @property
-    def stats(self) -> SessionStats:
-        """See `FieldProvider`. A live field follows the scene at once."""
-        return SessionStats(fields_prepared=self._n_requests)
-
-    def request(self, excitations: Sequence[Excitation]) -> None:
-        """Make a field of the present objects and sources, unless the field in use has the same ones."""
-        self._n_requests += 1
-        bodies = self._state.bodies
-        if self._made_for is None or self._made_for[0] is not bodies or self._made_for[1] is not excitations:
-            field = self._model.live(self._state.graph, bodies, excitations, self._bands)
-            if self._made_for is not None and isinstance(field, SucceedingField):
-                field.succeed(self.field)
-            self._made_for = (bodies, excitations)
-            self.field: LiveField = field
-        self._mapped = None
-
-    def order(self) -> None:
-        """Do nothing: a live field needs no preparation."""
-
-    def for_touches(self, source_ids: tuple[str, ...], reach: Reach) -> LiveField:
-        """Return the field, which follows sources and contacts by itself."""
-        return self.field
-
-    def for_points(self, source_ids: tuple[str, ...], reach: Reach, n_points: int) -> LiveField:
-        """See `FieldProvider`.
-
-        For many points the model prepares a field, which stays in use until contacts, sources or objects change.
-        """
-        if n_points < _MANY or not isinstance(self._model, PropagationModel):
-            return self.field
-        version = self._state.graph.version
-        if self._mapped is None or self._mapped[0] != version:
-            assert self._made_for is not None
-            network, (_, excitations) = self._state.network(None)(()).network, self._made_for
-            self._mapped = (version, self._model.prepare(network, excitations, self._bands))
-        poses, now = self._state.poses, self._state.graph.pose
-        return LastField(self._mapped[1], poses, now, source_ids, self._bands.n_bands, reach, lambda: True)
-
-    def take(self) -> bool:
-        """Return False: there is never a newer field."""
-        return False
-
-    def wait(self, end: Deadline) -> bool:
-        """Return True: nothing is being prepared."""
-        return True
-
-
-def keeper_of(config: SessionConfig, state: SceneState, excitations: Sequence[Excitation]) -> FieldProvider:
-    """Return the keeper for the configured model: `LiveKeeper` if it has a live field that need not be scaled."""
-    model, bands = config.propagation, config.bands
-    # The law is its own reference.
-    is_scaled = config.reference == "felt_near" and not isinstance(model, ExponentialPlate)
-    live = live_model(model)
-    if live is not None and not is_scaled:
-        return LiveKeeper(live, bands, state, excitations)
-    if is_scaled:
-        model = FeltNear(model)
-    is_background, skips_unreachable = config.prepare == "background", config.skips_unreachable
-    return FieldKeeper(
-        model, bands, state, excitations, is_background=is_background, skips_unreachable=skips_unreachable
-    )

@@ -10,17 +10,15 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats, Indices
 from scene2hap.compiled import compiled
 from scene2hap.propagation.live import LiveField, TouchedPoint
 from scene2hap.propagation.protocol import PropagationField, checked_gains
+from scene2hap.scene.geometry import Vector
 from scene2hap.scene.pose import Pose
 from scene2hap.session.fields.worker import PreparedField
 from scene2hap.session.reach import Reach
-
-Gains = NDArray[np.float64]
-Point = tuple[float, float, float]
 
 
 class LastField:
@@ -52,7 +50,7 @@ class LastField:
         self._shape = (len(source_ids), n_bands)
         self._columns = _shared(source_ids, tuple(field.source_ids))
 
-    def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> Gains:
+    def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:
         """See `LiveField`."""
         touched = [touch for hand in hands for touch in hand]
         if not touched:
@@ -63,7 +61,7 @@ class LastField:
         gains = put_together(answers, rows, self._columns, among, self._shape)
         return gains if all(len(hand) == 1 for hand in hands) else self._largest(gains, hands)
 
-    def _answers(self, touched: Sequence[TouchedPoint]) -> tuple[list[Gains], list[list[int]]]:
+    def _answers(self, touched: Sequence[TouchedPoint]) -> tuple[list[Floats], list[list[int]]]:
         """Evaluate the field once for each object. Returns the values and, for each object, the rows of its touches."""
         rows: dict[str, list[int]] = {}
         for row, (object_id, _) in enumerate(touched):
@@ -74,11 +72,11 @@ class LastField:
             answers.append(checked_gains(self._field.attenuation(object_id, points), (len(own), n_sources, n_bands)))
         return answers, list(rows.values())
 
-    def _points_then(self, object_id: str, points_m: list[Point]) -> NDArray[np.float64]:
+    def _points_then(self, object_id: str, points_m: list[Vector]) -> Floats:
         now, then, points = self._now(object_id), self._then.get(object_id), np.array(points_m, dtype=np.float64)
         return points if then is now or then is None or then == now else then.to_world(now.to_own(points))
 
-    def _largest(self, gains: Gains, hands: Sequence[Sequence[TouchedPoint]]) -> Gains:
+    def _largest(self, gains: Floats, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:
         largest, begin = np.zeros((len(hands), *self._shape)), 0
         for row, hand in zip(largest, hands, strict=True):
             if hand:
@@ -89,12 +87,12 @@ class LastField:
 
 @compiled
 def put_together(
-    answers: Sequence[Gains],
+    answers: Sequence[Floats],
     rows: Sequence[Sequence[int]],
-    columns: tuple[NDArray[np.intp], NDArray[np.intp]],
+    columns: tuple[Indices, Indices],
     among: Sequence[frozenset[int] | None],
     shape: tuple[int, int],
-) -> Gains:
+) -> Floats:
     """Join the results of several queries into rows (n, *shape).
 
     Parameters: answers : one per query, (n_own, n_theirs, n_bands); rows : the rows of each query; columns : the shared
@@ -112,7 +110,7 @@ def put_together(
 
 
 @lru_cache(maxsize=64)
-def _shared(ours: tuple[str, ...], theirs: tuple[str, ...]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _shared(ours: tuple[str, ...], theirs: tuple[str, ...]) -> tuple[Indices, Indices]:
     """Columns of the shared ids: in `ours`, and in `theirs`."""
     column = {source_id: i for i, source_id in enumerate(ours)}
     pairs = [(column[x], there) for there, x in enumerate(theirs) if x in column]
@@ -136,16 +134,16 @@ class FieldInUse:
     ) -> None:
         self.source_ids = source_ids
         self._as_now, self._note = as_now, note
-        self._prepared: PreparedField | None = None
+        self._of_whole: PreparedField | None = None
 
     def use(self, newest: PreparedField, whole: PreparedField) -> None:
         """Use the newest field, which may not cover all objects, and a field that covers the others."""
-        if self._prepared is not whole:
-            self._whole, self._prepared = self._as_now(whole), whole
+        if self._of_whole is not whole:
+            self._whole, self._of_whole = self._as_now(whole), whole
         self._newest = self._whole if newest is whole else self._as_now(newest)
         self._covers = newest.covers
 
-    def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> NDArray[np.float64]:
+    def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> Floats:
         """See `LiveField`."""
         touched = [touch for hand in hands for touch in hand]
         self._note(touched)
@@ -154,5 +152,5 @@ class FieldInUse:
             return self._newest.strongest(hands)
         new = [[touch for touch in hand if touch[0] in covers] for hand in hands]
         old = [[touch for touch in hand if touch[0] not in covers] for hand in hands]
-        gains: NDArray[np.float64] = np.fmax(self._newest.strongest(new), self._whole.strongest(old))
+        gains: Floats = np.fmax(self._newest.strongest(new), self._whole.strongest(old))
         return gains

@@ -29,7 +29,7 @@ from scene2hap.render.bursts import LEAST_SUM, Samples, peak_of, wave_of
 from scene2hap.scene.pose import Pose
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
-from scene2hap.session.hand_gains import Felt
+from scene2hap.session.frame import Felt
 from scene2hap.session.impacts.gains import Point, struck_later, struck_live
 from scene2hap.session.impacts.landings import Landings
 from scene2hap.session.mix.playback import Playback

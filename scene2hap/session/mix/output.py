@@ -26,6 +26,8 @@ from scene2hap.session.frame import HapticFrame
 LONGEST_FADE_OUT_S = 0.25
 """Longest time for which `stop` waits until the sink has taken the fade; without its device it may never take it."""
 
+NOT_STARTED = "The sink plays nothing: call start(), or use the session in a `with` block."
+
 _PROBLEMS = ("unavailable", "stalled", "lost", "fault")
 
 
@@ -78,25 +80,26 @@ class Output:
         return self._ended if safety is None else safety.stats
 
     @property
-    def problem(self) -> str | None:
-        """Why a started sink, or one of several, plays nothing. None if all play, or the game took `on_event` since."""
-        return self._first_problem(self._taps)
-
-    @property
     def untold_problem(self) -> str | None:
-        """A `problem` whose event no callback of the game got."""
-        return self._first_problem(tap for tap in self._taps if tap.own is None)
-
-    def _first_problem(self, taps: Iterable[_EventTap]) -> str | None:
-        if self._safety is None:
-            return None
-        return next((problem for tap in taps if (problem := tap.problem) is not None), None)
+        """Why a started sink, or one of several, plays nothing, if no callback of the game got the event; else None."""
+        return None if self._safety is None else _first_problem(tap for tap in self._taps if tap.own is None)
 
     @property
-    def is_late(self) -> bool:
-        """Whether the watchdog silences a started sink."""
+    def why_silent(self) -> str | None:
+        """Why the sink plays nothing, in a sentence; None if it plays, or if there is none.
+
+        A problem that the game's own `on_event` has replaced since is not named.
+        """
         safety = self._safety
-        return safety is not None and safety.is_late
+        if safety is None:
+            return None if self.sink is None else NOT_STARTED
+        problem = _first_problem(self._taps)
+        if problem is None and safety.is_late:
+            return (
+                f"The sink is silent, since no update came for {self._config.watchdog_s:g} s: call it in each frame, "
+                "changed or not."
+            )
+        return problem
 
     def _listen(self, sink: ActuatorSink) -> None:
         """Note the events of a sink until `_listen_no_more`; those of a part with a callback do not reach its group."""
@@ -279,6 +282,10 @@ class _EventTap:
         self._events[event.sink] = event
         if self.own is not None:
             self.own(event)
+
+
+def _first_problem(taps: Iterable[_EventTap]) -> str | None:
+    return next((problem for tap in taps if (problem := tap.problem) is not None), None)
 
 
 def _discard(sink: ActuatorSink) -> Callable[[], None]:

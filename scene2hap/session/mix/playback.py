@@ -72,13 +72,15 @@ class Playback:
     def __init__(self, config: SessionConfig, rows: Sequence[LoopRow], hands: Sequence[str]) -> None:
         self._config = config
         self._tactile_rate_hz = min(config.tactile_rate_hz, config.sample_rate_hz)
-        self._coming: dict[LoopRow, Future[PreparedLoop]] = {}
+        # Loops that a worker prepares; `take_prepared` adds them.
+        self._preparing: dict[LoopRow, Future[PreparedLoop]] = {}
+        # The audio thread alone changes `_position` and `_frozen_at`. It reads `_plan`, `_paused_from` and `_limits`;
+        # workers read `_hands`. The game's thread replaces each of these as a whole.
         self._position = 0
         self.updated_at: int = 0
         """The frame of the last update, which may be later than `position`."""
         self._paused_from: int | None = None
         self._frozen_at: int | None = None
-        # Replaced and never changed, since other threads read it.
         self._hands: Mapping[str, int] = {hand: token for token, hand in enumerate(hands)}
         self._next_hand = len(hands)
         self._places: dict[LoopRow, _Place] = {}
@@ -134,18 +136,18 @@ class Playback:
 
     def take_prepared(self) -> bool:
         """Add the loops that are now prepared, silent until gains are set again. Returns false if there are none."""
-        ready = [row for row, loop in self._coming.items() if loop.done()]
+        ready = [row for row, loop in self._preparing.items() if loop.done()]
         if not ready:
             return False
-        self._let_out([self._places.pop(row) for row in ready if row in self._places], self.now)
+        self._fade_out([self._places.pop(row) for row in ready if row in self._places], self.now)
         for row in ready:
-            loop = self._coming.pop(row).result()
-            self._let_in(row, loop.bank, loop.peaks, len(ready))
+            loop = self._preparing.pop(row).result()
+            self._put_in_slot(row, loop.bank, loop.peaks, len(ready))
         return True
 
     def wait(self, end: Deadline) -> bool:
         """Wait for loops that are being prepared; false after the deadline."""
-        return not wait(self._coming.values(), end.left_s).not_done
+        return not wait(self._preparing.values(), end.left_s).not_done
 
     def set_gains(
         self,
@@ -214,7 +216,7 @@ class Playback:
         """
         bands, rate_hz = self._config.bands, self._tactile_rate_hz
         is_blocking = self._config.prepare == "blocking"
-        new = [row for row in rows if row not in self._places and row not in self._coming]
+        new = [row for row in rows if row not in self._places and row not in self._preparing]
         loops = [self._prepared(row) if is_blocking else find(row.loop.tactile, bands, rate_hz) for row in new]
         if instead is not None:
             later, earlier = instead
@@ -222,27 +224,31 @@ class Playback:
                 self._places[later] = self._places.pop(earlier)
                 self._routes.clear()
         wanted = set(rows)
-        self._let_out([self._places.pop(row) for row in [*self._places] if row not in wanted], at_frame)
-        self._coming = {row: loop for row, loop in self._coming.items() if row in wanted}
+        self._fade_out([self._places.pop(row) for row in [*self._places] if row not in wanted], at_frame)
+        self._preparing = {row: loop for row, loop in self._preparing.items() if row in wanted}
         for row, loop in zip(new, loops, strict=True):
             if loop is None:
-                self._coming[row] = order(row.loop.tactile, bands, rate_hz)
+                self._preparing[row] = order(row.loop.tactile, bands, rate_hz)
             else:
-                self._let_in(row, loop.bank, loop.peaks, len(new))
+                self._put_in_slot(row, loop.bank, loop.peaks, len(new))
 
-    def _let_out(self, gone: Sequence[_Place], at_frame: int) -> None:
+    def _fade_out(self, gone: Sequence[_Place], at_frame: int) -> None:
         """Fade out the loops of some slots. Slots whose loops have faded out become free."""
         for place in gone:
             place.free_at = at_frame + self._fade_frames
             for mixer in self._mixers:
                 if mixer.bank.slots is place.bank.slots:
                     mixer.fade(place.slot, at_frame)
-        self._retired = [place for place in (*self._retired, *gone) if not self._is_emptied(place)]
+        position, retired = self._position, [*self._retired, *gone]
+        self._retired = [place for place in retired if place.free_at > position]
+        for place in retired:
+            if place.free_at <= position:
+                place.bank.slots[place.slot] = None
 
     def _prepared(self, row: LoopRow) -> PreparedLoop:
         return prepare(row.loop.tactile, self._config.bands, self._tactile_rate_hz)
 
-    def _let_in(self, row: LoopRow, content: Slot, peaks: NDArray[np.float64], n_wanted: int) -> None:
+    def _put_in_slot(self, row: LoopRow, content: Slot, peaks: NDArray[np.float64], n_wanted: int) -> None:
         bank, slot = self._free_slot(n_wanted)
         bank.slots[slot] = content
         self._places[row] = _Place(bank, slot, peaks)
@@ -262,11 +268,11 @@ class Playback:
 
         Returns None if the other row is still being prepared.
         """
-        if of in self._coming:
+        if of in self._preparing:
             return None
         loop = self._prepared(of)
         transition = Transition(loop.bank, self._tactile(at_frame), lasts_s, course, since, after)
-        self._let_in(row, transition, loop.peaks, 1)
+        self._put_in_slot(row, transition, loop.peaks, 1)
         return transition
 
     def running(self, transition: Transition, at_frame: int) -> Running:
@@ -354,13 +360,6 @@ class Playback:
     def _new_bank(self, n_rows: int) -> SlotBank:
         n_slots = n_rows + max(SPARE_SLOTS, n_rows)
         return SlotBank([None] * n_slots, self._config.bands, self._tactile_rate_hz)
-
-    def _is_emptied(self, place: _Place) -> bool:
-        """Empty a slot whose loop has faded."""
-        is_over = place.free_at <= self._position
-        if is_over:
-            place.bank.slots[place.slot] = None
-        return is_over
 
     def _free_slot(self, n_wanted: int) -> tuple[SlotBank, int]:
         for bank in self._banks:

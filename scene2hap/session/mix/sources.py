@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 
 from scene2hap.audio.gain_warning import warn_if_percent
 from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.bundle import HapticBundle
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes
 from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.session.config import MAX_GAIN_DB
-from scene2hap.session.frame import RemovedIds, unknown_source
+from scene2hap.session.unknown_names import RemovedIds, unknown_source
 
 
 @dataclass
@@ -25,6 +26,11 @@ class Level:
 
     gain_db: float = 0.0
     is_muted: bool = False
+
+    @classmethod
+    def of(cls, bundle: HapticBundle, object_id: str) -> Level:
+        """Return a new knob at the level that a bundle has for a source."""
+        return cls(bundle.gain_db(object_id), bundle.is_muted(object_id))
 
     def set(self, gain_db: float | None, mute: bool | None) -> None:
         """Set the arguments that are not None. Raises: SessionError: the gain is out of bounds."""
@@ -237,11 +243,11 @@ class Sources:
         is_on = source.is_on if on is None else checks.flag("on", on, error=SessionError)
         source.level.set(gain_db, mute)
         source.is_on = is_on
-        is_other = state is not None and state != source.state
-        if is_other:
-            source.state, source.transition_row = state or source.state, None
-            self._list()
-        return is_other
+        if state is None or state == source.state:
+            return False
+        source.state, source.transition_row = state, None
+        self._list()
+        return True
 
     def _list(self) -> None:
         """Drop all values derived from the sources and their states."""

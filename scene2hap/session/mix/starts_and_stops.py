@@ -30,6 +30,7 @@ class Switching:
         self._turns: dict[str, tuple[float, Source]] = {}
         # Starts and stops of a saved game, which go on once the contacts of the sources are known.
         self._resumed: dict[str, tuple[Running, Source]] = {}
+        # Ids of the sources that the data above are of, and of those at the last update.
         self._known: tuple[str, ...] | None = None
         self._updated: tuple[str, ...] | None = None
         # Sources with a state that needs a contact, and the contacts for which they were last checked, None if they
@@ -152,8 +153,9 @@ class Switching:
         """Update the stored data after sources were added or removed."""
         self._known, self._topology = self._sources.ids, None
         self._needing = [x for x in self._known if any(self._sources[x].needs.values())]
-        under_way = {x for x in self._transitions if x in self._sources and self._sources[x].transition_row}
-        self._transitions = {x: one for x, one in self._transitions.items() if x in under_way}
+        self._transitions = {
+            x: one for x, one in self._transitions.items() if x in self._sources and self._sources[x].transition_row
+        }
         before, self._turns = self._turns, {}
         for source_id in self._known:
             source = self._sources[source_id]

@@ -11,10 +11,10 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.devices.protocol import Fill, SinkFormat, SinkStats
 from scene2hap.session.audibility import SILENT, Audibility, CutoffCost, sifted, silence, within
 from scene2hap.session.config import SkipConfig
-from scene2hap.session.frame import Counts
 from scene2hap.session.mix.prepared_loops import peaks_of
 from scene2hap.session.mix.sources import Sources
 from scene2hap.session.network import body_of, excitations_of
+from scene2hap.session.stats import Counts
 from scenes import RATE, table_with_two_phones
 
 ALL_BANDS = [Bands.dominant(), Bands.third_octaves(10, 1000)]

@@ -28,7 +28,7 @@ from scene2hap import (
 from scene2hap.devices.protocol import Fill
 from scene2hap.errors import ConfigError, DeviceError, ModelDomainError, SessionError, UnknownObject
 from scene2hap.render.safety import SafetyLayer
-from scenes import RATE, table_with_two_phones
+from scenes import RATE, box, table_with_two_phones, tone_loop
 
 CONFIG = {"sample_rate_hz": RATE}
 ON_TABLE = Touch("left", "table", (0.8, 0.72, 0.4))
@@ -397,6 +397,13 @@ def test_what_has_no_stamp_waits_for_an_update_that_is_stamped_ahead(is_pause: b
 def test_a_touch_point_must_be_finite() -> None:
     with pytest.raises(SessionError, match=r"point_m\[1\] is nan m"):
         Touch("left", "table", (0.0, math.nan, 0.0))
+
+
+def test_a_state_may_have_an_empty_name() -> None:
+    s = session()
+    s.add(box("fan", (0.1, 0.1, 0.1), (0.8, 0.77, 0.4)), None, {"on": tone_loop(100), "": tone_loop(170)})
+    s.set_source("fan", state="")
+    assert (s.source("fan").state, s.source("fan").frequency_hz) == ("", 170)
 
 
 def test_unknown_state_and_gain_out_of_bounds() -> None:

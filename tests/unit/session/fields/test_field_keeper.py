@@ -325,6 +325,23 @@ def test_an_error_of_a_guest_is_explained_with_the_line_that_raised_it() -> None
     assert not explained.is_current
 
 
+def test_update_goes_on_after_an_error_of_a_model_that_blocks() -> None:
+    s, model = gated(prepare="blocking")
+    model.gate.set()
+    s.update(touches=[ON_TABLE])
+    model.problem = ModelDomainError("the phone is too thick")
+    with pytest.raises(ModelDomainError):
+        s.update(shifted(0.2), [ON_TABLE])
+    s.update(touches=[ON_TABLE])
+    assert s.stats.skipped.unchanged_frames == 0
+    s.add(box("fan", (0.1, 0.1, 0.1), (0.8, 0.77, 0.4)), None, {"on": tone_loop(100)})
+    with pytest.raises(ModelDomainError):
+        s.update(touches=[ON_TABLE])
+    frame = s.update(touches=[ON_TABLE])
+    assert frame.gain("left", "phone") > 0.0
+    assert frame.gain("left", "fan") == 0.0  # unknown to the last field
+
+
 def test_failing_model_keeps_the_last_field() -> None:
     s, model = gated()
     gains = s.update(touches=[ON_TABLE]).gains
