@@ -128,7 +128,7 @@ class PluginGroup:
         try:
             return factory(**settings)
         except TypeError as cause:
-            reason = settings_misfit(factory, settings) or f"{cause}."
+            reason = settings_misfit(factory, settings) or f"{str(cause).removesuffix('.')}."
             given = f"does not take {shown(settings)}" if settings else f"needs settings, {{'kind': {kind!r}, ...}}"
             raise ConfigError(f"{self.name} kind {kind!r} {given}: {reason}") from cause
 

@@ -210,18 +210,20 @@ def number(
         result = math.inf
     except Exception as cause:  # a foreign `__float__` may raise any error
         raise error(_sentence(f"{name} is a {type(value).__name__} that gives no number{_in(unit)}", hint)) from cause
-    bounds = [
-        (not math.isfinite(result), "finite"),
-        (above is not None and result <= above, f"above {above}"),
-        (at_least is not None and result < at_least, f"at least {at_least}"),
-        (below is not None and result >= below, f"below {below}"),
-        (at_most is not None and result > at_most, f"at most {at_most}"),
-    ]
-    broken = [bound for is_broken, bound in bounds if is_broken]
-    if broken:
-        shown = f"{result:g}{' ' + unit if unit != '-' else ''}"
-        raise error(_sentence(f"{name} is {shown}; it must be {broken[0]}{_in(unit)}", hint))
-    return result
+    if not math.isfinite(result):
+        bound = "finite"
+    elif above is not None and result <= above:
+        bound = f"above {above}"
+    elif at_least is not None and result < at_least:
+        bound = f"at least {at_least}"
+    elif below is not None and result >= below:
+        bound = f"below {below}"
+    elif at_most is not None and result > at_most:
+        bound = f"at most {at_most}"
+    else:
+        return result
+    shown = f"{result:g}{' ' + unit if unit != '-' else ''}"
+    raise error(_sentence(f"{name} is {shown}; it must be {bound}{_in(unit)}", hint))
 
 
 _ONLY_FLOATS = {float}

@@ -221,7 +221,7 @@ def test_invalid_requests_get_an_error_and_write_nothing(
         ({"kind": "haptic", "range_hz": [200, 55]}, r"range_hz\[1\] is 55 Hz; it must be above 200"),
         ({"kind": "hjif", "profile": "Simple"}, "it must be Simple Parametric or Main"),
         ({"kind": "openxr_pcm", "sample_rate_hz": 0}, "sample_rate_hz is 0 Hz; it must be at least 100"),
-        ({"kind": "ahap", "colour": 1}, "does not take"),
+        ({"kind": "ahap", "colour": 1}, r"does not take {'colour': 1}: .*Call CurveSettings\(.*\)\.$"),
         ([], "it must name a kind"),
         (out, "to is a path, '.*out'; it names kinds, as 'wav'. Give it as folder="),
     ):
