@@ -168,7 +168,7 @@ def main() -> None:
     print("| impacts | reported | detected | felt | update p50 [ms] | p99 [ms] | worst [ms] | above 1 kHz [dB] |")
     print("|---|---|---|---|---|---|---|---|")
     for name in ("struck", "landing"):
-        session, touches, spots = on_floor(given.scene, given.seed) if given.scene else on_table(200)
+        session, touches, spots = on_floor(given.scene, given.seed, FALL_M) if given.scene else on_table(200)
         for source_id in session.source_ids:
             session.set_source(source_id, on=False)
         session.update(touches=touches)

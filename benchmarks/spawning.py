@@ -93,20 +93,22 @@ def on_table(n_spots: int) -> tuple[HapticSession, list[Touch], list[Pose]]:
     return session, [Touch("left", "table", (-1.5, 0.725, -1.2))], spots
 
 
-def on_floor(path: str, seed: int) -> tuple[HapticSession, list[Touch], list[Pose]]:
-    """Session of a scene with y up, a touch on its floor, and spots where a copy touches only the floor."""
+def on_floor(path: str, seed: int, fall_m: float = 0.0) -> tuple[HapticSession, list[Touch], list[Pose]]:
+    """Session of a scene with y up, a touch on its floor, and spots where a copy touches only the floor, also while it
+    falls from a height."""
     scene = load_scene(path)
     session = HapticSession(bake(scene), config={"sample_rate_hz": RATE_HZ})
     floor = next(item for item in scene.objects if "floor" in item.name.lower())
     (x0, _, z0), (x1, top, z1) = floor.bounds_m
-    spots, graph, cup = [], ContactGraph(scene), thing("cup", SIZE_M, (0.0, 0.0, 0.0))
+    (width, height, depth), spots, graph = SIZE_M, [], ContactGraph(scene)
+    column = thing("cup", (width, height + fall_m, depth), (0.0, 0.0, 0.0))
     for x in np.arange(x0 + 0.3, x1 - 0.3, 0.2):
         for z in np.arange(z0 + 0.3, z1 - 0.3, 0.2):
-            pose = Pose((float(x), top + 0.05, float(z)))
-            graph.update({}, added=[replace(cup, pose=pose)])
-            if graph.neighbours(cup.id) == (floor.id,):
-                spots.append(pose)
-            graph.update({}, removed=[cup.id])
+            around = Pose((float(x), top + (height + fall_m) / 2, float(z)))
+            graph.update({}, added=[replace(column, pose=around)])
+            if graph.neighbours(column.id) == (floor.id,):
+                spots.append(Pose((float(x), top + height / 2, float(z))))
+            graph.update({}, removed=[column.id])
     np.random.default_rng(seed).shuffle(spots)
     return session, [Touch("left", floor.id, ((x0 + x1) / 2, top, (z0 + z1) / 2))], spots
 

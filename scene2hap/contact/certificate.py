@@ -28,7 +28,7 @@ from scene2hap.contact.geometry.level_plane import (
 from scene2hap.contact.geometry.vectors import AABB, Triple
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.ledge import Flat
-from scene2hap.contact.pair import Rest, points_at, rest_of, support_normal
+from scene2hap.contact.pair import NEEDS_TRIANGLES, Rest, points_at, rest_of, support_normal
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, upper_of
 from scene2hap.scene.pose import Pose
 
@@ -45,11 +45,13 @@ _ONES = (1.0,) * 4
 
 
 class Resting(NamedTuple):
-    """The support that carries a body's whole base face, how the body rests on it, and the pair's free space."""
+    """A body that rests on a support: how, the pair's free space, and whether the support surely carries the whole base
+    face with weight 1."""
 
     support: Body
     rest: Rest
     space: FreeSpace
+    is_certain: bool
 
 
 class Extent(NamedTuple):
@@ -205,17 +207,18 @@ class Certificate:
 
 
 def resting_on(body: Body, support: Body) -> Resting | None:
-    """Return how a body rests on `support` with its whole base face and weight 1; None where that is not certain."""
+    """Return how a body rests on `support`; None if it does not, or if only triangles can tell."""
     if upper_of(body, support) is not body:
         return None
     space, up, top_face = FreeSpace(*roles(body, support)), body.up_axis, support.stance.top_face
     rest = rest_of(body, support, space)
-    if rest is None or not rest.wholly or not _SURE_M < rest.fall_m < 2 / 3 * fall_reach_m(body.size_m):
+    if rest is None or rest is NEEDS_TRIANGLES:
         return None
-    bottom_m = rest.top_m + rest.fall_m
-    if rest.on_ledge and top_face is not None and bottom_m >= support.position_m[up] + top_face.height - TOUCH_M:
-        return None  # The body may slide from the ledge onto a top face that is about as high.
-    return Resting(support, rest, space)
+    is_certain = rest.wholly and _SURE_M < rest.fall_m < 2 / 3 * fall_reach_m(body.size_m)
+    if is_certain and rest.on_ledge and top_face is not None:
+        # The body may slide from the ledge onto a top face that is about as high.
+        is_certain = rest.top_m + rest.fall_m < support.position_m[up] + top_face.height - TOUCH_M
+    return Resting(support, rest, space, is_certain)
 
 
 def standing_planes(body: Body, resting: Resting) -> tuple[Plane, ...] | None:

@@ -13,7 +13,7 @@ from scene2hap.contact.geometry.level_plane import Plane
 from scene2hap.contact.hinge import are_hinged
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.pair import BodyPairs
-from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m
+from scene2hap.contact.rule import TOUCH_M, hang_reach_m, is_over
 
 _MOST_REFUSALS = 5
 """After n refusals a body waits for 2^(n-1) - 1 moves before the next attempt; n grows to this."""
@@ -60,7 +60,8 @@ class CertificateIssuer:
         planes: dict[str, tuple[Plane, ...]] = {}
         if resting is not None:
             on, top_m = resting.support.id, resting.rest.top_m
-            known = None if on in moving else self._planes_on(body, resting)
+            # A body whose rest is not certain is in contact all the same, so no planes separate it from that neighbour.
+            known = self._planes_on(body, resting) if resting.is_certain and on not in moving else None
             if known is None:
                 return None
             planes[on] = known
@@ -101,23 +102,16 @@ class CertificateIssuer:
         return not left
 
     def resting(self, body: Body, held: Collection[str]) -> Resting | None:
-        """Return how a body rests on one of its neighbours, None if on none. Those in `held` are tried first."""
-        up, flat = body.up_axis, body.v_axis
-        (u0, u1), (v0, v1) = (body.low[0], body.high[0]), (body.low[flat], body.high[flat])
-        lowest = body.low[up] - fall_reach_m(body.size_m)
-        below = []
-        for y in self._broad_phase.neighbours[body.id]:
-            other = self._bodies[y]
-            low, high = other.low, other.high
-            is_below = low[0] < u1 and high[0] > u0 and low[flat] < v1 and high[flat] > v0 and high[up] > lowest
-            if is_below and not self._hinged.are_chained(body.id, y):
-                below.append(other)
+        """Return how a body rests on a neighbour, a certain rest before others; None if on none. `held` come first."""
+        others = map(self._bodies.__getitem__, self._broad_phase.neighbours[body.id])
+        below = [x for x in others if is_over(body, x) and not self._hinged.are_chained(body.id, x.id)]
         below.sort(key=lambda other: (other.id not in held, other.size_m))
+        resting = None
         for other in below:
-            resting = resting_on(body, other)
-            if resting is not None:
-                return resting
-        return None
+            resting = resting_on(body, other) or resting
+            if resting is not None and resting.is_certain:
+                break
+        return resting
 
     def separate_from_neighbours(self, body: Body) -> list[Body]:
         """Separate a body that moved, or lost its support, from the certified bodies around it.

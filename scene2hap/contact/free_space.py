@@ -48,15 +48,15 @@ class FreeSpace:
         guest, host, own = self.guest, self.host, self._own
         if own is None:
             return None
-        taken, foot = self._column, _foot(guest, host, own)
+        taken = self._column
         low, high = taken[0][2], taken[1][2]
 
         def serves(known: FreeRegion) -> bool:
             if known.own != own or not known.holds(taken):
                 return False
-            return known.top_m is None or (low <= known.top_m <= high and known.bears(foot))
+            return known.top_m is None or (low <= known.top_m <= high and known.bears(self._foot))
 
-        return host.free_regions.find(guest.id, serves, lambda: _computed_region(host, own, taken, foot))
+        return host.free_regions.find(guest.id, serves, lambda: _computed_region(host, own, taken, self._foot))
 
     @cached_property
     def empty_region(self) -> FreeRegion | None:
@@ -98,6 +98,23 @@ class FreeSpace:
         high = guest.high[up] - h + TOUCH_M + (fall_reach_m(host.size_m) if upper_of(host, guest) is host else 0.0)
         return (mu - hu, mv - hv, low), (mu + hu, mv + hv, high)
 
+    @cached_property
+    def _foot(self) -> Flat:
+        """A rectangle (u, v) around the guest's base face, a little smaller, so that a foot flush with a rim fits."""
+        guest, host, own, v_axis = self.guest, self.host, self._own, self.guest.v_axis
+        assert own is not None
+        x, y = guest.position_m[0] - host.position_m[0], guest.position_m[v_axis] - host.position_m[v_axis]
+        a, b, c, d = _turn(host, own)
+        if len(outline := guest.stance.base_outline) > MANY_CORNERS:
+            _, _, (p, q), r, _ = guest.stance.posed_base_face
+            u, v, hu = a * (x + p) + b * (y + q), c * (x + p) + d * (y + q), max(r - _ROUNDING_M, 0.0)
+            return (u - hu, v - hu, u + hu, v + hu)
+        us = [a * (x + p) + b * (y + q) for p, q in outline]
+        vs = [c * (x + p) + d * (y + q) for p, q in outline]
+        u0, u1, v0, v1 = min(us), max(us), min(vs), max(vs)
+        hu, hv = min(_ROUNDING_M, (u1 - u0) / 2), min(_ROUNDING_M, (v1 - v0) / 2)
+        return (u0 + hu, v0 + hv, u1 - hu, v1 - hv)
+
     def planes(self, *, stands: bool) -> tuple[Plane, ...] | None:
         """Return the planes of the guest's free region in world coordinates; None where no region is certain.
 
@@ -136,22 +153,6 @@ def _turn(host: Body, own: VerticalAxis) -> tuple[float, float, float, float]:
 def _reach_m(guest: Body) -> float:
     """Return the distance [m] within which a host must have nothing for the guest to be clear of it."""
     return max(TOUCH_M, play_reach_m(guest.size_m), hang_reach_m(guest.size_m))
-
-
-def _foot(guest: Body, host: Body, own: VerticalAxis) -> Flat:
-    """Return a rectangle (u, v) around a guest's base face, a little smaller, so that a foot flush with a rim fits."""
-    v_axis = 3 - guest.up_axis
-    x, y = guest.position_m[0] - host.position_m[0], guest.position_m[v_axis] - host.position_m[v_axis]
-    a, b, c, d = _turn(host, own)
-    if len(outline := guest.stance.base_outline) > MANY_CORNERS:
-        _, _, (p, q), r, _ = guest.stance.posed_base_face
-        u, v, hu = a * (x + p) + b * (y + q), c * (x + p) + d * (y + q), max(r - _ROUNDING_M, 0.0)
-        return (u - hu, v - hu, u + hu, v + hu)
-    us = [a * (x + p) + b * (y + q) for p, q in outline]
-    vs = [c * (x + p) + d * (y + q) for p, q in outline]
-    u0, u1, v0, v1 = min(us), max(us), min(vs), max(vs)
-    hu, hv = min(_ROUNDING_M, (u1 - u0) / 2), min(_ROUNDING_M, (v1 - v0) / 2)
-    return (u0 + hu, v0 + hv, u1 - hu, v1 - hv)
 
 
 def _empty_region(host: Body, own: VerticalAxis, taken: AABB) -> FreeRegion | None:

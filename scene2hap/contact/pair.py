@@ -22,7 +22,7 @@ from scene2hap.contact.geometry.spread import spread
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.hinge import HingedBodies, pivot_m
 from scene2hap.contact.mesh_distance import Gap, MeshPair
-from scene2hap.contact.rule import TOUCH_M, fall_reach_m, upper_of
+from scene2hap.contact.rule import TOUCH_M, fall_reach_m, is_over, upper_of
 
 # Least overlap of two outlines, as a share of the upper one's radius, and its upper bound. Without it, equal boxes side
 # by side, whose rims coincide, would lie over each other.
@@ -49,16 +49,9 @@ def rest_of(x: Body, y: Body, space: FreeSpace) -> Rest | None:
 
     Parameters: x : the upper one by `upper_of`; space : the free space of the larger body around the smaller one.
     """
-    reach_m = fall_reach_m(x.size_m)
-    up, v_axis = x.up_axis, x.v_axis
-    if (
-        x.low[up] - y.high[up] > reach_m
-        or x.low[0] >= y.high[0]
-        or y.low[0] >= x.high[0]
-        or x.low[v_axis] >= y.high[v_axis]
-        or y.low[v_axis] >= x.high[v_axis]
-    ):
+    if not is_over(x, y):
         return None
+    up = x.up_axis
     rest = rest_on(x, y)
     if rest is None or rest.fall_m < -TOUCH_M:
         known = space.region_below
@@ -70,7 +63,7 @@ def rest_of(x: Body, y: Body, space: FreeSpace) -> Rest | None:
         rest = Rest(x.position_m[up] + x.stance.posed_base_face.height - top_m, True, top_m, True)
         if space.guest is not x or rest.fall_m < -TOUCH_M:
             return NEEDS_TRIANGLES
-    return rest if rest.fall_m <= reach_m else None
+    return rest if rest.fall_m <= fall_reach_m(x.size_m) else None
 
 
 def rest_on(x: Body, y: Body) -> Rest | None:

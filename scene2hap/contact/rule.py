@@ -178,6 +178,14 @@ def hangs(gaps_m: Mapping[str, float], reach_m: float) -> dict[str, float]:
     return {name: share for name, share in shares.items() if share > 0}
 
 
+def is_over(x: Body, y: Body) -> bool:
+    """Return True if x, of two bodies the upper one, may rest on the other, by their AABBs."""
+    up, v = x.up_axis, x.v_axis
+    (a, b), (c, d) = (x.low, x.high), (y.low, y.high)
+    overlap = a[0] < d[0] and c[0] < b[0] and a[v] < d[v] and c[v] < b[v]
+    return overlap and a[up] - d[up] <= fall_reach_m(x.size_m)
+
+
 def upper_of(x: Body, y: Body) -> Body | None:
     """Return the one of two bodies that may rest on the other, by their AABBs; None if neither may.
 
