@@ -55,7 +55,10 @@ def read_account(folder: str | os.PathLike[str]) -> dict[str, Any] | None:
         document = read_json(read_small_text(path))
     except (OSError, ValueError) as cause:
         raise BundleError(f"{path} cannot be read: {reason_of(cause)}. Remove it, or bake again.") from cause
-    is_ours = isinstance(document, dict) and document.get("format") == FORMAT
-    if not is_ours or not is_version(document.get("version"), VERSION):
+    if (
+        not isinstance(document, dict)
+        or document.get("format") != FORMAT
+        or not is_version(document.get("version"), VERSION)
+    ):
         raise BundleError(f'{path} is no account: it must have "format": "{FORMAT}" and version {VERSION}. Remove it.')
     return document
