@@ -224,12 +224,22 @@ class DeviceTimeout(DeviceError, TimeoutError):
 def reason_of(cause: BaseException) -> str:
     """Return the reason of a caught error for a message that names the file.
 
-    The text of an OSError repeats the file and has a number: "[Errno 2] No such file or directory: 'a.csv'". That of a
-    UnicodeDecodeError names a codec.
+    The text of an OSError repeats the file and has a number: "[Errno 2] No such file or directory: 'a.csv'". Its reason
+    does not name the part of a path that is a file in place of a folder. That of a UnicodeDecodeError names a codec.
     """
     if isinstance(cause, UnicodeDecodeError):
         return f"byte {cause.start} is {cause.object[cause.start]:#04x}, which is not UTF-8; save the text as UTF-8"
+    if isinstance(cause, FileExistsError | NotADirectoryError) and (part := _no_folder(cause)):
+        return f"{part} is a file, not a folder"
     return cause.strerror if isinstance(cause, OSError) and cause.strerror else str(cause)
+
+
+def _no_folder(cause: OSError) -> str:
+    """Return the part of a path that is there and is no folder, such as a.csv of a.csv/b; "" if there is none."""
+    part = cause.filename if isinstance(cause.filename, str) and cause.filename2 is None else ""  # a rename has both
+    while part and not os.path.lexists(part):
+        part = os.path.dirname(part)
+    return "" if os.path.isdir(part) else part
 
 
 def failure_of(problem: Exception) -> str:

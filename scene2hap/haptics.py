@@ -173,7 +173,8 @@ class VibrationDescription:
     """The request to a sound source: one state of one object.
 
     A synthesizer uses `size_m` [m] and `material` to shape the sound; `seed` makes its output repeatable. `own_word` is
-    the author's word for the object, as "windmill" of a turbine, or ""; sources that search by name prefer it.
+    the author's word for the object, as "windmill" of a turbine, or ""; sources that search by name prefer it. `name`
+    is the object's whole name if a source has a sound of this name (`audio.protocol.NamedSounds`), else "".
     """
 
     object_category: str
@@ -185,9 +186,10 @@ class VibrationDescription:
     material: str = ""
     seed: int = 0
     own_word: str = ""
+    name: str = ""
 
     def __post_init__(self) -> None:
-        for name in ("object_category", "state", "sentence", "keywords", "material", "own_word"):
+        for name in ("object_category", "state", "sentence", "keywords", "material", "own_word", "name"):
             checks.text(name, getattr(self, name), error=ConfigError)
         checks.seed(self.seed)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import io
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import replace
 from pathlib import Path
 from typing import Literal
@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.audio.clip import AudioClip, Credit, Samples
 from scene2hap.audio.loop_marks import marked_loop, with_loop
+from scene2hap.audio.riff import is_cut_short, unsized_wav
 from scene2hap.common import checks
 from scene2hap.common.files import LFS_ADVICE, draft_of, is_lfs_pointer, is_there, path_in_c
 from scene2hap.errors import AudioError, reason_of, unwritable
@@ -172,9 +173,9 @@ def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
     try:
         if not (is_there(path) and path.is_file()):
             raise AudioError(f"{path} is not a file. Give the path of an existing sound file.")
-        if _is_cut_short(path):
+        if is_cut_short(path):
             raise AudioError(f"{path} is cut short: fewer bytes than its header says. Copy it again.")
-        with soundfile.SoundFile(path_in_c(path)) as file:
+        with unsized_wav(path) or nullcontext() as unsized, soundfile.SoundFile(unsized or path_in_c(path)) as file:
             _require_bounded(path, file)
             yield file
     except OSError as cause:
@@ -209,17 +210,6 @@ def written_whole(path: Path) -> Iterator[Path]:
             yield beside
     except OSError as cause:
         raise AudioError(unwritable(path, cause)) from cause
-
-
-def _is_cut_short(path: Path) -> bool:
-    """Return True if a RIFF file ends before its stated length, which libsndfile does not report.
-
-    Programs that write into a pipe leave 0 or the largest number there. Some count the eight bytes before it as well.
-    """
-    with path.open("rb") as file:
-        header = file.read(8)
-    stated = int.from_bytes(header[4:], "little")
-    return header[:4] == b"RIFF" and stated not in (0, 0xFFFFFFFF) and path.stat().st_size < stated
 
 
 def fits_flac(sample_rate_hz: int) -> bool:

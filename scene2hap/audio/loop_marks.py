@@ -8,6 +8,8 @@ from __future__ import annotations
 import struct
 from pathlib import Path
 
+from scene2hap.audio.riff import find_chunk
+
 SHORTEST_MARK_S, LONGEST_MARK_S = 0.1, 60.0
 """Bounds on the length of a marked loop [s] (assumed: shorter ones are the last cycles of a musical instrument, longer
 ones an ambience)."""
@@ -53,10 +55,5 @@ def _loops(chunk: bytes) -> list[tuple[int, int, int]]:
 def _sampler_chunk(path: Path) -> bytes:
     """Return the content of the chunk "smpl", at most 1000 loops of it; empty if there is none."""
     with path.open("rb") as file:
-        riff, _, wave = struct.unpack("<4sI4s", file.read(12).ljust(12, b"\0"))
-        while (riff, wave) == (b"RIFF", b"WAVE") and len(header := file.read(8)) == 8:
-            name, size = struct.unpack("<4sI", header)
-            if name == b"smpl":
-                return file.read(min(size, _SAMPLER.size + 1000 * _LOOP.size))
-            file.seek(size + size % 2, 1)
-    return b""
+        size = find_chunk(file, b"smpl")
+        return b"" if size is None else file.read(min(size, _SAMPLER.size + 1000 * _LOOP.size))

@@ -24,6 +24,15 @@ class AudioSource(Protocol):
         ...
 
 
+@runtime_checkable
+class NamedSounds(Protocol):
+    """Interface that a source may have too: its sounds have names, which may be those of single objects."""
+
+    def names(self) -> frozenset[str]:
+        """Return the names of all sounds, as `str.casefold` writes them. Raises: ConfigError."""
+        ...
+
+
 @clear_construction
 @dataclass(frozen=True)
 class ConversionContext:

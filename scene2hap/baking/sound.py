@@ -20,7 +20,7 @@ from scene2hap.audio.felt_loop import Plan, SourceClip, felt_loop, plan_scene
 from scene2hap.audio.files import as_stored, sound_digest
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.loops import middle_of, without_silent_ends
-from scene2hap.audio.protocol import follows_target
+from scene2hap.audio.protocol import NamedSounds, follows_target
 from scene2hap.audio.recorded_runs import recorded_runs
 from scene2hap.audio.select import Choice, explain_choice
 from scene2hap.audio.sources.chain import gather
@@ -239,6 +239,8 @@ class _Chooser:
     ) -> None:
         self._config, self._overrides, self._earlier, self._inferred = config, overrides, earlier, inferred
         self._names = names
+        # Other names are left out of descriptions, so that objects of one type share a search.
+        self._named = frozenset(name for one in config.audio if isinstance(one, NamedSounds) for name in one.names())
         self._chosen: dict[VibrationDescription, tuple[AudioClip, str, Runs]] = {}
         self._clips: dict[tuple[VibrationDescription, str], AudioClip] = {}
         self._own: dict[str, tuple[AudioClip, Runs]] = {}
@@ -273,8 +275,8 @@ class _Chooser:
         if description not in self._chosen:
             choice = self._choose(object_id, description)
             runs = choice.start_up, choice.wind_down
-            # Objects that differ in their authors' words alone share the loops of a sound that suits both.
-            key = replace(description, own_word=""), sound_digest(choice.winner)
+            # Objects that differ in their authors' names alone share the loops of a sound that suits both.
+            key = replace(description, own_word="", name=""), sound_digest(choice.winner)
             self._chosen[description] = self._clips.setdefault(key, _prepared(choice.winner)), str(choice), runs
         clip, why, runs = self._chosen[description]
         return _Part(object_id, state, group, clip, request, before, runs=shown_runs(runs, state, before)), why
@@ -295,6 +297,7 @@ class _Chooser:
             ) from cause
 
     def _description(self, object_id: str, haptics: ObjectHaptics, state: SourceState) -> VibrationDescription:
+        name = self._names.get(object_id, "")
         return VibrationDescription(
             object_category=haptics.object_category,
             state=state.name,
@@ -304,7 +307,8 @@ class _Chooser:
             size_m=haptics.estimated_size_m,
             material=haptics.material_category,
             seed=self._config.seed,
-            own_word=own_word(self._names.get(object_id, ""), haptics.object_category),
+            own_word=own_word(name, haptics.object_category),
+            name=name if name.casefold() in self._named else "",
         )
 
 

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import hmac
+import os
 import re
+import sys
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from scene2hap.bridge.config import BridgeConfig
@@ -21,6 +24,10 @@ class Host:
         self.owns_process = owns_process
         self.jobs: Jobs = Jobs()
         self.udp_port: int | None = None
+        of_settings = _absolute_paths([config.bake, config.session, config.sink])
+        own = {str(Path(__file__).parents[2]), sys.prefix, sys.base_prefix, os.path.expanduser("~"), *of_settings}
+        # The longest first, since one may be below another.
+        self._own_folders = sorted(map(Path, own), key=lambda folder: -len(folder.parts))
         self._sessions: dict[str, HostedSession] = {}
         self._plays_sink: HostedSession | None = None
         self._takes_sink = False
@@ -55,9 +62,13 @@ class Host:
         return found
 
     def as_told(self, message: str) -> str:
-        """Return a message for clients. It names files as clients do, relative to the root, and not where they are."""
-        folders = {self.config.root: "the bridge's root", self.jobs.temporary: "a temporary folder of the bridge"}
-        for folder, name in folders.items():
+        """Return a message for clients. It names files as clients do, relative to the root, and not where they are.
+
+        Files in folders of the server's settings, of Python and of the user are named without these folders. Other
+        paths stay: most are those that a client gave.
+        """
+        named = {self.config.root: "the bridge's root", self.jobs.temporary: "a temporary folder of the bridge"}
+        for folder, name in [*named.items(), *((one, "a folder of the bridge") for one in self._own_folders)]:
             # A root of / would be found everywhere. `repr` doubles each backslash of a path of Windows.
             if folder is None or folder == folder.parent:
                 continue
@@ -117,3 +128,13 @@ class Host:
     def with_key(self, key: bytes) -> HostedSession | None:
         """Return the session with a key, None if there is none."""
         return next((one for one in self._sessions.values() if hmac.compare_digest(one.key, key)), None)
+
+
+def _absolute_paths(settings: object) -> Iterator[str]:
+    """Yield the absolute paths among the values of nested settings."""
+    if isinstance(settings, str | os.PathLike):
+        if os.path.isabs(path := os.fspath(settings)):
+            yield path
+    elif isinstance(settings, Mapping | list | tuple):
+        for one in settings.values() if isinstance(settings, Mapping) else settings:
+            yield from _absolute_paths(one)

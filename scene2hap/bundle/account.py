@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.common.files import read_small_text, write_whole
+from scene2hap.common.json_fields import is_version
 from scene2hap.common.json_texts import read_json
 from scene2hap.errors import BundleError, reason_of, unwritable
 
@@ -54,6 +55,10 @@ def read_account(folder: str | os.PathLike[str]) -> dict[str, Any] | None:
         document = read_json(read_small_text(path))
     except (OSError, ValueError) as cause:
         raise BundleError(f"{path} cannot be read: {reason_of(cause)}. Remove it, or bake again.") from cause
-    if not isinstance(document, dict) or document.get("format") != FORMAT or document.get("version") != VERSION:
+    if (
+        not isinstance(document, dict)
+        or document.get("format") != FORMAT
+        or not is_version(document.get("version"), VERSION)
+    ):
         raise BundleError(f'{path} is no account: it must have "format": "{FORMAT}" and version {VERSION}. Remove it.')
     return document

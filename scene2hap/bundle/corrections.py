@@ -14,6 +14,7 @@ from typing import Any
 from scene2hap.bundle.override import Override
 from scene2hap.common import checks
 from scene2hap.common.files import read_small_text
+from scene2hap.common.json_fields import is_version
 from scene2hap.common.json_texts import read_json
 from scene2hap.errors import BundleError, reason_of
 
@@ -37,7 +38,7 @@ def parsed_corrections(document: object, place: str) -> dict[str, dict[str, Any]
     """Check plain data as `read_corrections` does, and return it. `place` is its name in error messages."""
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         raise BundleError(f'{place} is no file of corrections: it must be an object with "format": "{FORMAT}".')
-    if document.get("version") != VERSION:
+    if not is_version(document.get("version"), VERSION):
         raise BundleError(f"{place} is of version {document.get('version')!r}; this scene2hap reads version {VERSION}.")
     rows = document.get("overrides")
     if not isinstance(rows, dict) or not all(isinstance(row, dict) for row in rows.values()):

@@ -31,11 +31,13 @@ from scene2hap.cli.console import Console
 from scene2hap.cli.shared_options import reject_unused
 from scene2hap.cli.tables import bundle_outcome, scene_outcome, show_bundle, show_scene
 from scene2hap.common.counted import counted
-from scene2hap.common.files import write_whole
+from scene2hap.common.files import require_place, write_whole
 from scene2hap.common.printable import quoted
 from scene2hap.errors import SceneError, unwritable
 from scene2hap.scene.capture import capture_images, contact_sheet, plan_view, render_all
 from scene2hap.scene.snapshot import SceneSnapshot
+
+PLAN = "plan.png"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -74,6 +76,10 @@ def write_pictures(scene: SceneSnapshot, folder: Path, console: Console) -> list
 
     Raises: MissingExtra: the renderer is not installed; SceneError: the folder cannot be written.
     """
+    try:
+        require_place(folder / PLAN)  # before the pictures are rendered, which takes long
+    except OSError as cause:
+        raise SceneError(unwritable(folder, cause)) from cause
     pictured = capture_images(scene)
     written: list[str] = []
 
@@ -87,7 +93,7 @@ def write_pictures(scene: SceneSnapshot, folder: Path, console: Console) -> list
 
     with console.progress() as tell:
         render_all(pictured, workers=os.cpu_count(), progress=lambda done, total: tell("pictures", "", done, total))
-    put("plan.png", plan_view(pictured))
+    put(PLAN, plan_view(pictured))
     stems = file_stems(item.id for item in pictured.objects)
     for item in pictured.objects:
         put(f"{stems[item.id]}.png", contact_sheet(item))

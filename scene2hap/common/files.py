@@ -131,7 +131,7 @@ def require_place(path: Path) -> None:
     if above is None:
         raise FileNotFoundError(errno.ENOENT, f"there is no drive or share {path.absolute().anchor}")
     if not above.is_dir():
-        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR))
+        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), str(above))
     if not os.access(above, os.W_OK | os.X_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
 

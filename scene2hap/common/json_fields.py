@@ -38,3 +38,10 @@ Flag = Annotated[bool, Strict()]
 """True or false."""
 Yes = Annotated[Literal[True], BeforeValidator(_flag)]
 """True: Literal alone takes 1 for it, since they are equal."""
+VersionOne = Annotated[Literal[1], WHOLE]
+"""1: Literal alone takes true for it."""
+
+
+def is_version(value: object, wanted: int) -> bool:
+    """Return True if `value` is this number, also as 1.0. In Python, true equals 1."""
+    return value == wanted and not isinstance(value, bool)

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 # marks that change the direction of writing, and unpaired surrogates, which no encoding can write.
 _UNSAFE = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
 UNSAFE_BUT_LINES = re.compile(_UNSAFE.pattern.replace("\x00-\x1f", "\x00-\x08\x0b-\x1f"))
-SURROGATES = re.compile("[\ud800-\udfff]")
+_SURROGATES = re.compile("[\ud800-\udfff]")
 
 _WIDEST = 60
 """Most columns to which a cell is padded, so that one very long name does not widen all rows."""
@@ -51,7 +51,7 @@ def writable(text: str) -> str:
 
     Such characters are bytes of file names that are not UTF-8, and unpaired surrogates, which JSON can hold.
     """
-    if not SURROGATES.search(text):
+    if not _SURROGATES.search(text):
         return text
     # Two surrogates that form a pair are one character.
     return text.encode("utf-16-le", "surrogatepass").decode("utf-16-le", "replace")

@@ -11,6 +11,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from scene2hap.bundle import HapticBundle
+from scene2hap.common.json_fields import VersionOne
 from scene2hap.export.contact_gains import PathEntry, contact_paths
 from scene2hap.export.report import ExportReport
 from scene2hap.propagation.protocol import PropagationModel
@@ -101,7 +102,7 @@ class Manifest(_Part):
     """The content of manifest.json."""
 
     format: Literal["scene2hap/export"] = FORMAT
-    version: Literal[1] = VERSION
+    version: VersionOne = VERSION
     scene: str
     scene_category: str
     up_axis: str

@@ -16,6 +16,7 @@ import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
 from scene2hap.common import checks
+from scene2hap.common.json_fields import is_version
 from scene2hap.common.json_texts import read_json
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError
@@ -73,7 +74,7 @@ def parse(text: str) -> SceneData:
         hint = f" It looks like a Habitat scene; name its file NAME{HABITAT_SUFFIX}." if looks_like_habitat else ""
         raise SceneError(f'not a scene: the top level must be an object with "format": "{FORMAT}".{hint}')
     version = document.get("version")
-    if version != VERSION:
+    if not is_version(version, VERSION):
         raise SceneError(f"scene format version is {version!r}; this scene2hap reads version {VERSION}.")
     return from_document(document)
 

@@ -18,7 +18,7 @@ from scene2hap.common.calls import clear_attributes
 from scene2hap.common.counted import counted
 from scene2hap.common.csv_tables import csv_reader, with_point
 from scene2hap.common.files import read_small_text
-from scene2hap.common.json_fields import Flag, Real, Yes
+from scene2hap.common.json_fields import Flag, Real, VersionOne, Yes
 from scene2hap.common.json_texts import parse_json
 from scene2hap.errors import SessionError, reason_of
 from scene2hap.scene.limits import MAX_COORDINATE_M
@@ -112,7 +112,7 @@ class TouchTrack(BaseModel):
     model_config: ClassVar[ConfigDict] = ConfigDict(frozen=True, extra="forbid")
 
     format: Literal["scene2hap/touches"] = FORMAT
-    version: Literal[1] = VERSION
+    version: VersionOne = VERSION
     duration_s: Real = Field(ge=MIN_DURATION_S, le=MAX_DURATION_S, allow_inf_nan=False)
     steps: tuple[Step, ...] = Field(max_length=MAX_STEPS)
     _name: str = PrivateAttr(default=_TOUCHES)

@@ -69,6 +69,10 @@ class LevelAndLimit(Settings):
         frequency, curve = np.array(self.curve_db).T
         return np.asarray(self.gain_db + np.interp(np.log(np.maximum(at_hz, 1e-9)), np.log(frequency), curve))
 
+    @property
+    def _most_own_db(self) -> float:
+        return self.gain_db + max((level_db for _, level_db in self.curve_db), default=0.0)
+
 
 class UserProfile(LevelAndLimit):
     """Levels and limits of one person. Levels add up, and the smallest limit counts.
@@ -100,6 +104,12 @@ class UserProfile(LevelAndLimit):
         at_hz = np.asarray(frequencies_hz, dtype=np.float64)
         levels = [one._own_level_db(at_hz) for one in (self, *self._special(hand, device))]
         return np.asarray(sum(levels))
+
+    @property
+    def most_level_db(self) -> float:
+        """Upper bound of `level_db` at any hand, on any device [dB]."""
+        special = (max((one._most_own_db for one in of.values()), default=0.0) for of in (self.hands, self.devices))
+        return self._most_own_db + sum(max(0.0, one) for one in special)
 
     def limits(self, hands: Sequence[str], device: str) -> NDArray[np.float64]:
         """Return the largest sample at each hand on a device (n_hands,), as a share of full scale [-]."""

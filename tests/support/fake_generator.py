@@ -110,6 +110,8 @@ def main() -> int:
         reply = {**CONTRACT, "address": "javascript:alert(1)", "licence": "free\nas in beer"}
     if manner == "other-version":
         reply["version"] = 2
+    if manner == "no-number-of-version":
+        reply["version"] = True
     if manner == "no-files":
         names = []
     (place / "reply.json").write_text(json.dumps({**reply, "files": names}), encoding="utf-8")

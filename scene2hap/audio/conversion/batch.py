@@ -152,7 +152,10 @@ def _planned(sources: Sequence[Path], output: Path, suffix: str) -> tuple[dict[i
     if len(sources) == 1 and not os.path.isdir(sources[0]) and output.suffix and not is_folder:
         return {0: _Job(sources[0], output)}, {}
     if (output.suffix.lower() in FORMATS and not is_folder) or os.path.isfile(output):
-        raise AudioError(f"{output} is one file, and there is more than one to make. Give a folder.")
+        given = "is one file, and there is more than one to make"
+        if len(sources) == 1 and not os.path.isdir(sources[0]):
+            given = f"is a file, and ends in none of {', '.join(FORMATS)}"
+        raise AudioError(f"{output} {given}. Give a folder.")
     jobs: dict[int, _Job] = {}
     failures: dict[int, Failure] = {}
     taken: dict[Path, Path] = {}

@@ -50,7 +50,8 @@ class FolderLibrary:
     def find(self, description: VibrationDescription) -> list[AudioClip]:
         """Return up to five sounds whose words name the object, those with most words of the description first.
 
-        Sounds with the author's word for the object come first, then those that also name what the object does. If one
+        A sound whose whole name is that of the object is taken before all others, whatever it says. Then come sounds
+        with the author's word for the object, then those that also name what the object does. If one
         of them is long enough to be chosen, sounds that say less are left out. A sound with the right verb but another
         object does not match: a boiling kettle is no boiling pan. Nor does one that shares only a word for anything: a
         sewing machine is no vending machine, and of a "box" only sounds without other words match, such as "box
@@ -64,24 +65,28 @@ class FolderLibrary:
         doing = set(stems(description.keywords)) - set(nouns)
         head = set(nouns[-2:] if nouns and says_nothing(nouns[-1]) else nouns[-1:])
 
-        def rank(words: set[str]) -> tuple[bool, bool]:
+        def has_name(path: Path) -> bool:
+            return bool(description.name) and path.stem.casefold() == description.name.casefold()
+
+        def rank(path: Path, words: set[str]) -> tuple[bool, bool, bool]:
             is_own = own <= words
             # Of a "boiling pot", the verb is a word of the name as well.
-            return not is_own, not doing & (words - own if is_own else words)
+            return not has_name(path), not is_own, not doing & (words - own if is_own else words)
 
         said = _words(f"{description.own_word} {description.keywords} {description.object_category}")
         names = [(name, all(map(is_anything, name))) for name in (own, head) if name]
         matches = [
             entry
             for entry in self._entries()
-            if any(name <= entry[1] and (entry[1] <= said or not may_be_any) for name, may_be_any in names)
+            if has_name(entry[0])
+            or any(name <= entry[1] and (entry[1] <= said or not may_be_any) for name, may_be_any in names)
         ]
-        matches.sort(key=lambda match: (*rank(match[1]), -len(wanted & match[1]), match[0].as_posix()))
+        matches.sort(key=lambda match: (*rank(*match[:2]), -len(wanted & match[1]), match[0].as_posix()))
         found: list[AudioClip] = []
         short: list[AudioClip] = []
-        best: tuple[bool, bool] | None = None
+        best: tuple[bool, bool, bool] | None = None
         for path, words, credit in matches:
-            if len(found) == MAX_CANDIDATES or (best is not None and rank(words) > best):
+            if len(found) == MAX_CANDIDATES or (best is not None and rank(path, words) > best):
                 break
             try:
                 clip = read_clip(path, replace(credit, query=description.keywords, origin="library"))
@@ -90,7 +95,7 @@ class FolderLibrary:
                 continue
             if is_long_enough(clip):
                 found.append(clip)
-                best = best or rank(words)
+                best = best or rank(path, words)
             elif len(short) < MAX_CANDIDATES:
                 short.append(clip)
         if short and not found:
@@ -103,6 +108,11 @@ class FolderLibrary:
                 ShortSound,
             )
         return [*found, *short][:MAX_CANDIDATES]
+
+    def names(self) -> frozenset[str]:
+        """Return the names of the sound files, without folder and suffix. Raises: ConfigError: see `FolderLibrary`."""
+        self._require_folder()
+        return frozenset(path.stem.casefold() for path, _, _ in self._entries())
 
     def _require_folder(self) -> None:
         if not os.path.isdir(self.folder):

@@ -269,15 +269,16 @@ class Impacts:
                 self._record(impact, felt)
 
     def _most(self, burst: Burst, profile: UserProfile | None) -> Floats | float:
-        """Upper bound of `_levels` [-], for each sine (n,) if the actuator plays all of them equally well; else `PEAK`,
-        which only users exceed."""
+        """Upper bound of `_levels` [-]: of each sine (n,) if the actuator plays all equally well, else of all."""
         actuator, (low_hz, high_hz) = self._config.actuator, TACTILE_RANGE_HZ
+        strongest = PEAK / LEAST_SUM * self._strength(burst)
+        if profile is not None:
+            strongest *= 10 ** (profile.most_level_db / 20)
         is_whole = actuator.min_frequency_hz <= low_hz and actuator.max_frequency_hz >= high_hz
-        if profile is not None or not is_whole or not is_flat(actuator):
-            return PEAK
+        if not is_whole or not is_flat(actuator):
+            return strongest
         accelerations = burst.accelerations_m_s2
-        strongest = PEAK / LEAST_SUM * self._strength(burst) / accelerations.max()
-        most: Floats = strongest * (accelerations * (burst.frequencies_hz >= low_hz))
+        most: Floats = strongest / accelerations.max() * (accelerations * (burst.frequencies_hz >= low_hz))
         return most
 
     def _strength(self, burst: Burst) -> float:

@@ -2,11 +2,13 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 
 import pytest
 
 from c_client import HERE, Build, Driver, builder
+from csharp_client import build_programs, run_trial
 from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake
 from scene2hap.bridge import BridgeServer
 from scene2hap.testing.bridge_client import serving
@@ -57,3 +59,15 @@ def driver(build: Build) -> Iterator[Driver]:
         assert not one.end()
     finally:
         one.kill()
+
+
+@pytest.fixture(scope="session")
+def programs(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of `game.exe` and `trials.exe`, which use the client for C#."""
+    return build_programs(tmp_path_factory.mktemp("csharp"))
+
+
+@pytest.fixture
+def trial(programs: Path) -> Callable[..., list[str]]:
+    """A function that runs a trial to its end and returns its output lines."""
+    return partial(run_trial, programs)

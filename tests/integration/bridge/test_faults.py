@@ -149,6 +149,18 @@ def test_an_error_names_a_file_as_the_client_did(
     assert str(root) not in str(refused.value)
 
 
+def test_an_error_of_the_servers_own_settings_does_not_tell_where_its_folders_are(root: Path, tmp_path: Path) -> None:
+    sounds = tmp_path / "own" / "recorded sounds"
+    bake = {"audio": [{"kind": "library", "folder": str(sounds)}, "synth"]}
+    host = Host(BridgeConfig(root=root, bake=bake), owns_process=False)
+    assert host.as_told(f"{sounds} is not a folder.") == "a folder of the bridge is not a folder."
+    assert host.as_told(f"skipped: {sounds}/fan/a.wav: cut") == "skipped: fan/a.wav: cut"
+    assert host.as_told(f"KeyError('a') at {Path(sys.prefix, 'lib', 'a.py')}:3") == "KeyError('a') at lib/a.py:3"
+    assert host.as_told(f"{Path.home() / '.cache' / 'x'} cannot be written") == ".cache/x cannot be written"
+    assert host.as_told(f"/ {root / 'a'} /etc/x") == "/ a /etc/x"
+    assert not host.as_told(f"at {checks.__file__}:3").startswith("at /")
+
+
 def test_only_the_root_itself_is_left_out_of_messages(root: Path) -> None:
     host = Host(BridgeConfig(root=root), owns_process=False)
     assert host.as_told(f"{root} and {root}. {root}/a {root}//b") == "the bridge's root and the bridge's root. a b"

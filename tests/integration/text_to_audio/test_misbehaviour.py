@@ -92,6 +92,7 @@ def test_generator_that_writes_too_much_is_killed(tmp_path: Path, manner: str, s
         ("not-json", "reply.json of the generator"),
         ("huge-reply", "left no reply.json .*at most 1000000 are read"),
         ("other-version", "version 2; it must be"),
+        ("no-number-of-version", "version: it must be a whole number"),
         ("no-files", "names no files"),
         ("error", "the generator says: no GPU for you"),
     ],

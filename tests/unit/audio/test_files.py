@@ -176,14 +176,45 @@ def test_file_keeps_both_channels(tmp_path: Path) -> None:
     np.testing.assert_allclose(read, both, rtol=0, atol=2**-24)
 
 
-def test_a_file_cut_short_is_refused_and_one_from_a_pipe_is_read(tmp_path: Path) -> None:
-    (tmp_path / "a.wav").write_bytes(encoded(tone(), RATE))
-    whole = (tmp_path / "a.wav").read_bytes()
+def test_a_file_cut_short_is_refused(tmp_path: Path) -> None:
+    whole = encoded(tone(), RATE)
     (tmp_path / "a.wav").write_bytes(whole[: len(whole) // 2])
     with pytest.raises(AudioError, match="is cut short"):
         read_clip(tmp_path / "a.wav")
-    (tmp_path / "a.wav").write_bytes(whole[:4] + b"\xff" * 4 + whole[8:])
-    assert len(read_clip(tmp_path / "a.wav").samples) == RATE
+
+
+@pytest.mark.parametrize("before", [b"", b"LIST\x04\0\0\0INFO"])
+@pytest.mark.parametrize(
+    ("of_file", "of_samples"),
+    [
+        (0xFFFF_FFFF, 0xFFFF_FFFF),  # ffmpeg
+        (0, 0),  # earlier versions of ffmpeg, GStreamer
+        (0, 0xFFFF_FFFF),
+        (0x7FFF_F024, 0x7FFF_F000),  # sox, espeak
+        (0x7FFF_EFFE + 36, 0x7FFF_EFFE),  # sox, three channels of two bytes: a whole number of frames
+        (0x7FFF_FFFF, 0x7FFF_FFDB),
+        (0x8000_0024, 0x8000_0000),  # arecord
+    ],
+)
+@pytest.mark.parametrize("is_silent_at_first", [False, True])
+def test_a_wav_that_was_written_into_a_pipe_is_read_to_its_end(
+    of_file: int, of_samples: int, before: bytes, is_silent_at_first: bool, tmp_path: Path
+) -> None:
+    samples = np.concatenate([np.zeros(is_silent_at_first * RATE, dtype=np.float32), tone()])
+    whole = encoded(samples, RATE)
+    at = whole.index(b"data")
+    head = b"RIFF" + struct.pack("<I", of_file) + whole[8:at] + before + b"data" + struct.pack("<I", of_samples)
+    path = tmp_path / "a.wav"
+    path.write_bytes(head + whole[at + 8 :])
+    np.testing.assert_allclose(read_clip(path).samples, samples, rtol=0, atol=2**-23)
+
+
+def test_a_wav_of_known_size_without_samples_is_refused(tmp_path: Path) -> None:
+    whole = encoded(tone(), RATE)
+    at = whole.index(b"data")
+    (tmp_path / "a.wav").write_bytes(whole[: at + 4] + bytes(4) + whole[at + 8 :])
+    with pytest.raises(AudioError, match="has no samples"):
+        read_clip(tmp_path / "a.wav")
 
 
 def test_a_wav_whose_header_states_the_size_of_the_whole_file_is_read(tmp_path: Path) -> None:

@@ -79,6 +79,17 @@ def test_an_object_has_the_sound_of_its_authors_word(tmp_path: Path) -> None:
     assert _titles(renamed)["c"] == "bonfire"
 
 
+def test_an_object_has_the_sound_of_its_whole_name(tmp_path: Path) -> None:
+    """Although another sound of its type is steadier."""
+    noise = 0.1 * np.random.default_rng(0).standard_normal(4 * RATE_HZ)
+    hum = 0.1 * np.sin(2 * np.pi * 100.0 * np.arange(4 * RATE_HZ) / RATE_HZ)
+    for name, samples in (("Fan_02", noise), ("fan_03", noise), ("fan", hum)):
+        (tmp_path / f"{name}.wav").write_bytes(encoded(samples, RATE_HZ))
+    config = {"audio": [{"kind": "library", "folder": str(tmp_path)}]}
+    bundle = bake(_scene(a="fan_02", b="fan_04", c="fan_05"), config)
+    assert _titles(bundle) == {"a": "Fan_02", "b": "fan", "c": "fan"}
+
+
 def test_other_words_for_one_type_share_its_sound() -> None:
     loops = bake(_scene(a="windmill", b="turbine", c="windmill_2")).loops
     assert loops["a"]["on"].tactile is loops["b"]["on"].tactile is loops["c"]["on"].tactile

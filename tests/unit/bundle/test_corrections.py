@@ -67,6 +67,7 @@ def test_a_name_in_a_file_of_corrections_is_applied_and_shown(
         ("[]", "no file of corrections"),
         ('{"format": "scene2hap/scene"}', "no file of corrections"),
         ('{"format": "scene2hap/overrides", "version": 2}', "version 2; this scene2hap reads version 1"),
+        ('{"format": "scene2hap/overrides", "version": true, "overrides": {}}', "version True; this scene2hap reads"),
         ('{"format": "scene2hap/overrides", "version": 1}', "overrides must map ids"),
         ('{"format": "scene2hap/overrides", "version": 1, "overrides": {"phone": 3}}', "overrides must map ids"),
         ('{"format": "scene2hap/overrides", "version": 1, "overrides": {"phone": {"gain": 3}}}', "'gain'.*gain_db"),

@@ -1,6 +1,7 @@
 """Reading small user files, limited in size and without waiting for pipes; writing files whole or not at all."""
 
 import os
+import re
 import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
@@ -14,10 +15,16 @@ from scene2hap.audio.conversion import Failure, convert, convert_files
 from scene2hap.audio.sources.library import FolderLibrary
 from scene2hap.bridge.config import BridgeConfig
 from scene2hap.bundle.folder_replacement import require_replaceable
+from scene2hap.cli.console import Console
+from scene2hap.cli.inspect import write_pictures
 from scene2hap.clips.ahap import read_ahap
 from scene2hap.common.files import draft_of, drafts_of, read_small, read_small_text, require_place, write_whole
+from scene2hap.common.settings import read_settings
+from scene2hap.devices.protocol import SinkFormat
 from scene2hap.errors import AudioError, ConfigError, Scene2HapError
+from scene2hap.export import export_clip
 from scene2hap.llm.prompts import Prompts
+from scenes import box, scene
 from systems import needs_long_names
 
 
@@ -130,6 +137,33 @@ def test_a_device_or_a_pipe_is_not_replaced_by_a_file(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="a device or a pipe"):
         WavSink(tmp_path / "pipe.wav")
     assert (tmp_path / "pipe.wav").is_fifo()
+
+
+@pytest.mark.parametrize("place", ["file", "file/folder"])
+@pytest.mark.parametrize(
+    "use",
+    [
+        lambda folder: WavSink(folder / "made.wav").open(SinkFormat(48_000, ("left",))),
+        lambda folder: write_pictures(scene(box("box", (1, 1, 1), (0, 0, 0))), folder, Console(quiet=True)),
+        lambda folder: export_clip("none.haptic", folder),
+        lambda folder: read_settings(str(folder / "own.toml"), "bake"),
+    ],
+)
+def test_a_file_where_a_folder_must_be_is_named(
+    use: Callable[[Path], object], place: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("scene2hap.cli.inspect.render_all", lambda *given, **options: pytest.fail("work is lost"))
+    (tmp_path / "file").write_text("mine")
+    with pytest.raises(Scene2HapError, match=re.escape(f"{tmp_path / 'file'} is a file, not a folder.")):
+        use(tmp_path / place)
+
+
+def test_a_file_that_has_the_name_of_a_folder_to_be_is_named(tmp_path: Path) -> None:
+    source, output = tmp_path / "tone.wav", tmp_path / "made"
+    soundfile.write(source, np.zeros(4800), 48_000)
+    output.write_text("mine")
+    with pytest.raises(AudioError, match=r"made is a file, and ends in none of \.wav, .*\. Give a folder"):
+        convert_files([source], output)
 
 
 TOO_LONG = "x" * 5000

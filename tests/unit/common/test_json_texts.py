@@ -1,11 +1,13 @@
 """Mistakes in JSON files that people edit by hand, and in those that git has merged."""
 
+import itertools
+import json
 from pathlib import Path
 
 import pytest
 
 from scene2hap import HapticBundle, SceneObject, SceneSnapshot, TriMesh, UserProfile
-from scene2hap.common.json_texts import parse_json
+from scene2hap.common.json_texts import has_surrogates, parse_json
 from scene2hap.errors import BundleError, ConfigError
 from scenes import table_with_two_phones
 
@@ -86,3 +88,16 @@ def test_a_clone_without_git_lfs_says_what_to_run(kind: str, tmp_path: Path) -> 
     path.write_bytes(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12\n")
     with pytest.raises(BundleError, match=f"{path.name} is a pointer of Git LFS.*run `git lfs pull`"):
         HapticBundle.load(folder)
+
+
+PIECES = ("\\ud83d", "\\uDE00", "\\\\", "\\n", "\\u00e9", "ud83d", "\ud83d", "\U0001f600", "a")
+"""Escapes of both halves of a pair, of others, what looks like an escape after a backslash, and characters."""
+
+
+def test_half_of_a_surrogate_pair_is_found_in_any_order_of_escapes() -> None:
+    """The parser joins the two escapes of a pair, and nothing else."""
+    for n in range(5):
+        for pieces in itertools.product(PIECES, repeat=n):
+            text = f'"{"".join(pieces)}"'
+            is_half = any("\ud800" <= character <= "\udfff" for character in json.loads(text))
+            assert has_surrogates(text) == is_half, text

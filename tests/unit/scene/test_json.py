@@ -167,6 +167,7 @@ def _document() -> dict[str, Any]:
     [
         (("format",), "other", '"format": "scene2hap/scene"'),
         (("version",), 2, "version is 2; this scene2hap reads version 1"),
+        (("version",), True, "version is True; this scene2hap reads version 1"),
         (("up_axis",), "x", "scene field up_axis"),
         (("objects",), [], "no object with a surface"),
         (("objects", 0, "id"), "b", "id 'b' is used more than once"),

@@ -131,6 +131,7 @@ def test_a_hand_goes_along_with_the_object_it_holds() -> None:
         (changed(1, point_m=[1, float("nan"), 2]), r"step 2, point_m\.1: .*finite"),
         ({**DOCUMENT, "steps": [{"time_s": 1.0, "hand": "left"}]}, r"step 1"),
         ({**DOCUMENT, "version": 2}, "version"),
+        ({**DOCUMENT, "version": True}, r"version: it must be a whole number.*, got True"),
         ({**DOCUMENT, "duration_s": 0}, "duration_s"),
         ({**DOCUMENT, "duration_s": 1e9}, r"duration_s: it must be at most 600"),
         ({**DOCUMENT, "duration_s": 10**400}, "duration_s"),

@@ -19,6 +19,7 @@ from typing import Annotated, ClassVar
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from scene2hap.common import checks
+from scene2hap.common.json_fields import Whole
 from scene2hap.errors import BackendUnavailable, BadAnswer, reason_of
 
 CONTRACT = "scene2hap/text-to-audio"
@@ -49,7 +50,7 @@ class Reply(BaseModel):
     model_config: ClassVar[ConfigDict] = ConfigDict(extra="ignore", frozen=True)
 
     contract: str
-    version: int
+    version: Whole
     error: str = ""
     model: str = ""
     licence: str = "unknown"

@@ -43,6 +43,16 @@ def test_library_orders_files_by_shared_words(tmp_path: Path) -> None:
     assert titles(tmp_path, "computer fan", "computer fan") == ["computer-fan-hum", "Computer_Fans", "fan_1"]
 
 
+@pytest.mark.parametrize("name", ["Buzz_02", "Red_01", "Box.003", "fan 1"])
+def test_a_sound_with_the_whole_name_of_the_object_is_found_alone(tmp_path: Path, name: str) -> None:
+    """Words for states, colours and boxes, which many objects have, find nothing by themselves."""
+    fill(tmp_path, f"sub/{name.lower()}.wav", "Buzz_03.wav", "Red.wav", "Box_01.wav", "fan.wav", "fan hum.wav")
+    library = FolderLibrary(tmp_path)
+    found = library.find(replace(describe("fan", "fan hum"), name=name))
+    assert [clip.credit.title for clip in found] == [name.lower()]
+    assert library.names() >= {name.lower(), "fan hum"}
+
+
 def test_a_word_for_anything_finds_nothing_by_itself(tmp_path: Path) -> None:
     fill(tmp_path, "box fan.wav", "music box.wav", "sewing machine.wav", "gift box shaking.wav")
     assert titles(tmp_path, "box", "box shaking") == []
