@@ -403,6 +403,25 @@ NAMES = {
     # a machine for the arms is moved by the arms
     "leg_extension_machine": "exercise machine",
     "cable_crossover_machine": "exercise machine",
+    # a part, a driver or the remains of a machine is no machine, nor is a scooter without a motor or a brass horn
+    "SM_CarBadge_02": None,
+    "helicopter_pilot": None,
+    "oven_grease": None,
+    "coffee_machine_pods": None,
+    "washer_feet": None,
+    "car_wreckage": None,
+    "airplane_wing_L": "wing",
+    "robot0:foot_link": "robot part",
+    "KickScooter": "kick scooter",
+    "french_horn": "wind instrument",
+    # a vending machine with its content is the machine
+    "SM_VendingMachine_Snacks": "vending machine",
+    # compounds whose words name other objects
+    "hummingbird": "bird",
+    "seaplane": "airplane",
+    "tank_top": "shirt",
+    "dog_collar": "strap",
+    "cornice": "baseboard",
     # German machines
     "Hochdruckreiniger_01": "pressure washer",
     "Beatmungsgeraet": "ventilator machine",
@@ -439,6 +458,8 @@ def test_confidence_falls_with_unread_words_and_spelling_errors() -> None:
     [
         *[("WoodenDoor", "wood"), ("tableGlass", "glass"), ("stainless_steel_sink", "stainless steel"), ("door", None)],
         *[("foam_block", "foam"), ("cushion_wool", "fabric"), ("sink_inox", "stainless steel")],
+        # the word for what a machine mixes or burns is not the material of its part
+        *[("tin_bucket", "steel"), ("concrete_mixer_drum", None), ("wood_stove_handle", None)],
     ],
 )
 def test_adjective_names_a_material(name: str, material: str | None) -> None:
