@@ -110,7 +110,7 @@ def read_name(name: str) -> NameReading:
         head = turned
     if _is_robot_part(name, tokens, head):
         head = _Noun(_row("robotpart"), head.start, len(tokens), plural=False)
-    elif head.row.vibrates and _is_thing_of_machine(tokens[head.end : clause]):
+    elif head.row.vibrates and _is_thing_of_machine(tokens[head.end : clause], attached):
         return unknown
     in_nouns = {i for noun in (*nouns, head) for i in range(noun.start, noun.end)}
     behind = tuple(tokens[i] for i in range(head.end, clause) if i not in in_nouns and not _is_beside(tokens[i]))
@@ -187,8 +187,9 @@ def _is_beside_one(tokens: Sequence[str], noun: _Noun, needed: Mapping[str, froz
     return beside is not None and not beside.isdisjoint(tokens)
 
 
-def _is_thing_of_machine(after: Sequence[str]) -> bool:
-    ends = (*after[:1], *after[-1:])
+def _is_thing_of_machine(after: Sequence[str], attached: frozenset[str]) -> bool:
+    """Return True if a word behind a machine says that the object is another one; a "nas_4bay" is a server."""
+    ends = {*after[:1], *after[-1:]} - attached
     return any(form in words.NO_MACHINES for word in ends for form in words.forms(word))
 
 
