@@ -133,12 +133,13 @@ def _in_english_order(tokens: Sequence[str]) -> list[str]:
 
 def _is_kind_of(thing: str, word: str) -> bool:
     """Return True if two words, of which one is foreign, are a thing and then its kind in a Romance language."""
+    if not (_is_foreign(thing) or _is_foreign(word)):
+        return False
     things, kinds = _nouns_by_language(thing), _nouns_by_language(word)
     shared = things.keys() & kinds.keys()
-    if not (_is_foreign(thing) or _is_foreign(word)) or not shared.isdisjoint(translations.COMPOUNDING):
-        return False
     entries = [nouns().get("".join(things[name])) for name in shared & translations.ROMANCE]
-    return bool(entries) and all(entry is not None and not entry[0].vibrates for entry in entries)
+    is_object = all(entry is not None and not entry[0].vibrates for entry in entries)
+    return bool(entries) and is_object and shared.isdisjoint(translations.COMPOUNDING)
 
 
 def _nouns_by_language(word: str) -> Mapping[str, tuple[str, ...]]:
