@@ -161,7 +161,7 @@ def meant_abroad(reading: NameReading, size_m: Sequence[float]) -> tuple[NameRea
     row, longest = reading.row, max(size_m)
     if row is None or row.max_size_m is None or longest <= row.max_size_m:
         return None
-    for meaning in translations.meanings(reading.head):
+    for meaning in translations.by_language(reading.head).values():
         other = read_name(" ".join(meaning)).row
         if other is not None and other is not row and longest <= (other.max_size_m or longest):
             why = f"It is {longest:.2g} m long; a {row.noun} is at most {row.max_size_m:g} m, so the word is foreign."

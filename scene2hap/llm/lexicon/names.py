@@ -14,7 +14,7 @@
    are called by their joints, limbs or makes (shoulder_pan_link, wrist_roll, upper_arm_link, iiwa_link_4), which are no
    objects. Only the base of a robot is the robot: robot0:base_link and panda_link0, but robot0:elbow_link,
    finger_base_link and finger_link_0 are parts of one, which do not vibrate by themselves.
-5. The room, control or picture of a machine is no machine (engine_room, crane_control, fan_art).
+5. The room, driver, picture, control or wreck of a machine is no machine (engine_room, fan_art, crane_control).
 6. The size of a metric thread says that the object belongs to a bolt: "washer_M8" is no washing machine.
 7. A name that no rule can read stays unknown. Corrected are plurals, one typing error in a long word or beside the
    other word of a noun ("coffe_machine"), and missing vowels ("prntr") if only one word has the consonants.
@@ -108,17 +108,17 @@ def read_name(name: str) -> NameReading:
     if turned is not None:
         trust *= 1.0 if turned.row is head.row else _OBJECT_FIRST
         head = turned
-    after = tokens[head.end : clause]
-    if head.row.vibrates and {*after[:1], *after[-1:]} & words.NO_MACHINES:
-        return unknown
     if _is_robot_part(name, tokens, head):
         head = _Noun(_row("robotpart"), head.start, len(tokens), plural=False)
+    elif head.row.vibrates and _is_thing_of_machine(tokens[head.end : clause], attached):
+        return unknown
     in_nouns = {i for noun in (*nouns, head) for i in range(noun.start, noun.end)}
     behind = tuple(tokens[i] for i in range(head.end, clause) if i not in in_nouns and not _is_beside(tokens[i]))
     before = tuple(word for word in tokens[: head.start] if word in unread)
     toy = words.TOY_WORDS | words.STUFFED if head.row.material == _ANIMAL else words.TOY_WORDS
     trust *= (_UNREAD_BEFORE if before else 1.0) * (_UNREAD_AFTER if behind else 1.0)
-    rest = [*tokens[: head.start], *tokens[head.end : clause], *said]
+    kinds = {i for noun in nouns if noun.end - noun.start > 1 for i in range(noun.start, noun.end)}
+    rest = [word for i, word in enumerate(tokens) if i < clause and i not in kinds and not head.start <= i < head.end]
     return NameReading(
         name,
         tuple(tokens),
@@ -126,7 +126,7 @@ def read_name(name: str) -> NameReading:
         round(trust, 3),
         head=" ".join(tokens[head.start : head.end]),
         unread=before + behind,
-        material=_material_in(rest),
+        material=_material_in([*rest, *said]),
         toy=not toy.isdisjoint((*tokens[: head.start], *said)),
         whole=_whole(tokens, head, nouns),
     )
@@ -185,6 +185,12 @@ def _without_robot(tokens: Sequence[str], nouns: Sequence[_Noun]) -> list[_Noun]
 def _is_beside_one(tokens: Sequence[str], noun: _Noun, needed: Mapping[str, frozenset[str]]) -> bool:
     beside = needed.get(" ".join(tokens[noun.start : noun.end]))
     return beside is not None and not beside.isdisjoint(tokens)
+
+
+def _is_thing_of_machine(after: Sequence[str], attached: frozenset[str]) -> bool:
+    """Return True if a word behind a machine says that the object is another one; a "nas_4bay" is a server."""
+    ends = {*after[:1], *after[-1:]} - attached
+    return any(form in words.NO_MACHINES for word in ends for form in words.forms(word))
 
 
 def _is_robot_part(name: str, tokens: Sequence[str], head: _Noun) -> bool:

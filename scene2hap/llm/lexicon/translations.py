@@ -8,15 +8,20 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Callable, Iterator
-from functools import cache
+from collections.abc import Callable, Iterator, Mapping
+from functools import cache, lru_cache
 
 from scene2hap.llm.lexicon.table import rows_of
 
 # Foreign words that are also English words: a number, a state, a tool's cube, or another object.
 _ENGLISH = frozenset({"four", "lit", "cubo", "piso", "bank", "trap", "kop", "wand"})
 
-_COMPOUNDING = ("de", "nl")
+COMPOUNDING = ("de", "nl")
+"""Languages that put the kind before the object, as English does."""
+
+ROMANCE = frozenset({"es", "fr", "it", "pt"})
+"""Languages that put the kind after the object: a "rueda camion" is the wheel of a truck."""
+
 _SHORTEST_PIECE = 3  # letters
 _SHORTEST_KIND = 2  # letters; "oil" in "olkanister"
 _SHORTEST_HEAD = 5  # letters; shorter words of German end hundreds of English words ("furni-tur")
@@ -36,6 +41,8 @@ _PLURALS: dict[str, dict[str, tuple[str, ...]]] = {
 }
 """Endings of plurals by language, and the endings of their singulars. An umlaut is an accent, which is removed."""
 
+LANGUAGES = frozenset(_PLURALS)
+
 OF = frozenset({"de", "du", "des", "di", "del", "della", "da", "do", "a", "al", "alla", "au", "aux"})
 """Words of Romance languages between an object and its kind: "porte de garage" is a garage door, "TV a muro" one for a
 wall."""
@@ -54,12 +61,11 @@ def english() -> dict[str, tuple[str, ...]]:
     return found
 
 
-def meanings(word: str) -> Iterator[tuple[str, ...]]:
-    """Yield the English words of a singular in each language that has it, even if it is an English word too."""
-    for language, known in _dictionaries().items():
-        meaning = known.get(_folded(language, word))
-        if meaning:
-            yield meaning
+@lru_cache(maxsize=4096)
+def by_language(word: str) -> Mapping[str, tuple[str, ...]]:
+    """Return the English words of a word or of its singular in each language that has it."""
+    found = {name: known.get(_folded(name, word)) or _plural_in(name, word) for name, known in _dictionaries().items()}
+    return {name: meaning for name, meaning in found.items() if meaning}
 
 
 def plural(word: str) -> tuple[str, ...]:
@@ -76,7 +82,7 @@ def compound(word: str, is_english: Callable[[str], bool]) -> tuple[str, ...]:
     first piece, and its last "e" may be missing ("duschwand"). It may be an English word ("laserdrucker"). An unknown
     first piece is returned as it is, since it is only the kind of the object ("puppenhaus").
     """
-    return next((found for language in _COMPOUNDING if (found := _compound_in(language, word, is_english))), ())
+    return next((found for language in COMPOUNDING if (found := _compound_in(language, word, is_english))), ())
 
 
 def _compound_in(language: str, word: str, is_english: Callable[[str], bool]) -> tuple[str, ...]:

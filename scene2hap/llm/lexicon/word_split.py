@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache, lru_cache, partial
 
 from scene2hap.llm.lexicon import translations, words
@@ -109,7 +109,10 @@ def _joined(tokens: Sequence[str]) -> list[str]:
 
 
 def _in_english_order(tokens: Sequence[str]) -> list[str]:
-    """Put the kind of a foreign object before it: "porte de garage" becomes "garage porte"."""
+    """Put the kind of a foreign object before it: "porte de garage" becomes "garage porte", "rueda camion" the reverse.
+
+    Without a word like "de", a machine stays before the next word, since packs also write "camion_rueda".
+    """
     ordered: list[str] = []
     rest = list(tokens)
     while rest:
@@ -121,9 +124,28 @@ def _in_english_order(tokens: Sequence[str]) -> list[str]:
             of = [part for part in rest[:kind] if part not in translations.ARTICLES]
             ordered[-1:] = [*of, ordered[-1]]
             rest = rest[kind:]
+        elif ordered and _is_kind_of(ordered[-1], word):
+            ordered.insert(-1, word)
         else:
             ordered.append(word)
     return ordered
+
+
+def _is_kind_of(thing: str, word: str) -> bool:
+    """Return True if two words, of which one is foreign, are a thing and then its kind in a Romance language."""
+    if not (_is_foreign(thing) or _is_foreign(word)):
+        return False
+    things, kinds = _nouns_by_language(thing), _nouns_by_language(word)
+    shared = things.keys() & kinds.keys()
+    entries = [nouns().get("".join(things[name])) for name in shared & translations.ROMANCE]
+    is_object = all(entry is not None and not entry[0].vibrates for entry in entries)
+    return bool(entries) and is_object and shared.isdisjoint(translations.COMPOUNDING)
+
+
+def _nouns_by_language(word: str) -> Mapping[str, tuple[str, ...]]:
+    """Return the English words of a word in each language that has it; an English noun may be one in all of them."""
+    single = next((form for form in words.forms(word) if form in nouns()), None)
+    return translations.by_language(word) if single is None else dict.fromkeys(translations.LANGUAGES, (single,))
 
 
 def _is_foreign(word: str) -> bool:

@@ -137,6 +137,16 @@ MATERIAL_WORDS = {
     "wool": "fabric",
     "denim": "fabric",
     "foam": "foam",
+    "tin": "steel",
+    "canvas": "fabric",
+    "silk": "fabric",
+    "jute": "fabric",
+    "suede": "leather",
+    "galvanized": "steel",
+    "galvanised": "steel",
+    "wrought": "cast iron",
+    "stoneware": "ceramic",
+    "perspex": "plexiglass",
     "plush": "fabric",
     "stuffed": "fabric",
 }
@@ -177,14 +187,18 @@ ROOM_NOUNS = _set("bath")
 
 NO_MACHINES = _set("""
     room house bay station depot pit shed area zone spot spawn volume trigger waypoint
-    art file icon guide instruction instructions license shadow outline stencil
-    control controls console channel sensor fuse chuck kit pad seal strip
-    sheet film guard holster head tip
-    fuel lint dust smoke steam sound noise
+    lane track tunnel platform stop shelter park parking dealer dealership
+    driver pilot owner operator repair service wash software memory
+    art file icon guide instruction license shadow outline stencil
+    plan schedule sketch symbol emblem badge tag bill permit pass recipe
+    control console channel sensor fuse chuck kit pad seal strip
+    sheet film guard holster head tip sleeve mitt wrap foot nose tail inlet intake meter indicator trim spare
+    fuel lint dust smoke steam sound noise ash crumb pod grease wax lube polish coolant rag
+    debris fragment gib husk ruin wreckage
 """)
 """Words directly after a machine, or last after it, that say that the object is another one: the place around it
-(engine_room), a text or picture (blender_file, fan_art), a thing of it (crane_control, drill_kit), or what it takes in
-or gives off."""
+(engine_room), a person (helicopter_pilot), a text or picture (blender_file, fan_art), a thing of it (crane_control,
+drill_kit), what it takes in or gives off (oven_grease), or its remains (car_wreckage)."""
 
 COUNTED = frozenset({"seat", "cushion", "pillow", "shelf", "stove burner"})
 """Nouns besides parts that count something of the noun before them: a "sofa 2 seats" is a sofa."""

@@ -52,7 +52,7 @@ def test_name_that_says_what_a_silent_thing_does_makes_it_vibrate(name: str, sta
 
 
 @pytest.mark.parametrize(
-    "name", ["cat", "rocking chair", "rolling pin", "running shoes", "toy cat purring", "spinning top"]
+    "name", ["cat", "hummingbird", "rocking chair", "rolling pin", "running shoes", "toy cat purring", "spinning top"]
 )
 def test_silent_things_stay_silent(name: str) -> None:
     assert not judge(ObjectFacts(name, (0.4, 0.3, 0.1))).vibrates

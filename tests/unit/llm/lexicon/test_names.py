@@ -126,7 +126,7 @@ NAMES = {
     "robot0:finger_link_0": "robot part",
     "robot_arm_link_3": "robot part",
     "robot0_screen": "monitor",
-    "robot0:hand mount": "stand",
+    "robot0:hand mount": "holder",
     "Robot_01": "robot",
     "robot1_red": "robot",
     "robot_kuka": "robot",
@@ -403,6 +403,45 @@ NAMES = {
     # a machine for the arms is moved by the arms
     "leg_extension_machine": "exercise machine",
     "cable_crossover_machine": "exercise machine",
+    # a part, a driver or the remains of a machine is no machine, nor is a scooter without a motor or a brass horn
+    "SM_CarBadge_02": None,
+    "helicopter_pilot": None,
+    "oven_grease": None,
+    "coffee_machine_pods": None,
+    "washer_feet": None,
+    "NAS_4bay": "storage server",
+    "car_wreckage": None,
+    "airplane_wing_L": "wing",
+    "robot0:foot_link": "robot part",
+    "KickScooter": "kick scooter",
+    "french_horn": "wind instrument",
+    # a vending machine with its content is the machine
+    "SM_VendingMachine_Snacks": "vending machine",
+    # compounds whose words name other objects
+    "hummingbird": "bird",
+    "seaplane": "airplane",
+    "tank_top": "shirt",
+    "dog_collar": "strap",
+    "cornice": "baseboard",
+    # Romance languages put the kind behind the object, with "de" or without; packs also put a machine before its part
+    "puerta_nevera": "door",
+    "nevera_puerta": "door",
+    "ruedas_camion": "wheel",
+    "pneu_camion": "wheel",
+    "siege_voiture": "car seat",
+    "chiave_macchina": "key",
+    "papel_impresora": "paper",
+    "mando_tv": "remote",
+    "cocina_mesa": "table",
+    "horno_electrico": "oven",
+    "lampe_table": "table lamp",
+    "scala_mobile": "escalator",
+    "aspirateur_balai": "vacuum cleaner",
+    # German words that end like other ones
+    "Fahrstuhl": "elevator",
+    "Krankenwagen": "ambulance",
+    "Tischdecke": "tablecloth",
+    "Glasvitrine": "display cabinet",
     # German machines
     "Hochdruckreiniger_01": "pressure washer",
     "Beatmungsgeraet": "ventilator machine",
@@ -439,6 +478,8 @@ def test_confidence_falls_with_unread_words_and_spelling_errors() -> None:
     [
         *[("WoodenDoor", "wood"), ("tableGlass", "glass"), ("stainless_steel_sink", "stainless steel"), ("door", None)],
         *[("foam_block", "foam"), ("cushion_wool", "fabric"), ("sink_inox", "stainless steel")],
+        # the word for what a machine mixes or burns is not the material of its part
+        *[("tin_bucket", "steel"), ("concrete_mixer_drum", None), ("wood_stove_handle", None)],
     ],
 )
 def test_adjective_names_a_material(name: str, material: str | None) -> None:
