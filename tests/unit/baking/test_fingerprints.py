@@ -453,7 +453,7 @@ def test_copies_are_synthesized_once(monkeypatch: pytest.MonkeyPatch) -> None:
     assert len({id(loop.tactile) for loop in loops}) == 1
 
 
-@pytest.mark.filterwarnings("ignore::scene2hap.audio.loops.marked.LoopWarning")  # no seam would be sought there
+@pytest.mark.filterwarnings("ignore::scene2hap.audio.loops.LoopWarning")  # no seam would be sought there
 def test_a_marked_loop_is_the_loop_and_stays_it_in_the_bundle(tmp_path: Path) -> None:
     x = own_tone().samples
     marked = AudioClip(x, RATE, Credit("mine", "me", "CC0"), loop=(4100, 12_000))
