@@ -23,11 +23,11 @@ def convert_clip(
     Raises: AudioError: the converter returns more or fewer samples than it was given.
     """
     n_before = min(round(PRE_ROLL_S * clip.sample_rate_hz), len(clip.samples) - 1)
-    fed = np.concatenate([clip.samples[n_before:0:-1], clip.samples])
     if from_rest:
-        fed[:n_before] = 0.0
+        fed = np.pad(clip.samples, (n_before, 0))
     else:
-        fed -= clip.samples.mean(dtype=np.float64).astype(np.float32)
+        offset = clip.samples.mean(dtype=np.float64).astype(np.float32)
+        fed = np.pad(clip.samples - offset, (n_before, 0), mode="reflect")
     stream = opened_stream(converter, clip.sample_rate_hz, context)
     felt = np.concatenate([one_channel(converter, stream.process(fed)), one_channel(converter, stream.finish())])
     require_in_step(converter, len(felt), len(fed))

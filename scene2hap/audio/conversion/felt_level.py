@@ -36,7 +36,7 @@ class FeltLevel:
         self._inside, self._weight = _weights(size, sample_rate_hz, actuator)
         self._energy = np.zeros(channels)
 
-    def hear(self, block: Block) -> None:
+    def add(self, block: Block) -> None:
         """Add the next frames to the measurement."""
         if not len(block):
             return
@@ -50,26 +50,26 @@ class FeltLevel:
             if self._filled == size:
                 self._full.append(self._segment.copy())
                 if len(self._full) * len(self._segment) >= AT_ONCE:
-                    self._hear_full()
+                    self._add_full()
                 self._segment[:, : self._overlap] = self._segment[:, -self._overlap :]
                 self._filled = self._overlap
 
     def level_db(self) -> float:
         """Return the sensation level of the strongest channel [dB], minus infinity for silence."""
-        self._hear_full()
+        self._add_full()
         rest = self._segment.copy()
         rest[:, self._filled :] = 0.0
         after = np.zeros_like(rest)
         after[:, : self._overlap] = rest[:, -self._overlap :]
-        energy = self._energy + self._heard([rest, after])
+        energy = self._energy + self._energy_of([rest, after])
         most = float(energy.max()) / max(self._n_frames, 1)
         return 10.0 * math.log10(most) if most > 0.0 else -math.inf
 
-    def _hear_full(self) -> None:
-        self._energy += self._heard(self._full)
+    def _add_full(self) -> None:
+        self._energy += self._energy_of(self._full)
         self._full = []
 
-    def _heard(self, pieces: list[Block]) -> NDArray[np.float64] | float:
+    def _energy_of(self, pieces: list[Block]) -> NDArray[np.float64] | float:
         """Return, for each channel of pieces (channels, n), the squared ratios of its components' amplitudes to their
         thresholds, summed over components and pieces and multiplied by time [samples]."""
         if not pieces:

@@ -37,7 +37,7 @@ def levelled(
         blocks = _equalized(blocks, sound, context.actuator)
     ended = _looped(blocks, sound) if sound.n_around else _faded_out(blocks, max(1, round(_END_S * sound.rate)))
     for block in ended:
-        felt.hear(block)
+        felt.add(block)
         held.write(np.ascontiguousarray(block).data)
     now_db = felt.level_db()
     if now_db <= NOTHING_DB or is_noise(sound.meter.peak * sound.gain, felt.peak, is_chosen=is_chosen):

@@ -47,7 +47,7 @@ class Meter:
         self._power = np.zeros(size // 2 + 1)
         self._is_measured = False
 
-    def hear(self, block: Block) -> None:
+    def add(self, block: Block) -> None:
         """Measure the next frames. A sample that is not finite makes the peak not finite."""
         if len(block) == 0:
             return

@@ -78,7 +78,7 @@ class SoundReader:
         for part in self._parts(BLOCK_FRAMES):
             with np.errstate(over="ignore"):  # of samples that are refused below
                 block = self._mixed(part)
-                self.meter.hear(block)
+                self.meter.add(block)
             if not self.meter.peak <= MAX_SAMPLE:
                 require_finite(self._source, block, n_read)
             n_read += len(block)

@@ -19,7 +19,7 @@ beginning, and opposed waves cancel each other in a fade: the level of 30 ms fal
 
 def with_repetitions(loop: NDArray[np.float32], n_around: int) -> NDArray[np.float32]:
     """Return a loop (n, ...) with `n_around` frames of its repetitions before and after it (n + 2 n_around, ...)."""
-    return loop[np.arange(-n_around, len(loop) + n_around) % len(loop)]
+    return np.take(loop, np.arange(-n_around, len(loop) + n_around), axis=0, mode="wrap")
 
 
 def one_period(felt: Samples, n_around: int, sample_rate_hz: int) -> Samples:

@@ -68,7 +68,7 @@ def write_blocks(target: soundfile.SoundFile, blocks: Iterator[Block], meter: Me
     """
     n_clipped = 0
     for block in blocks:
-        meter.hear(block)
+        meter.add(block)
         if meter.peak > 1.0:
             n_clipped += int(np.count_nonzero(np.abs(block) > 1.0))
         with _writing(output):
