@@ -1,4 +1,4 @@
-"""Measures of a sound: silent ends, dynamic range, spectral flatness, dominant frequency.
+"""Measures of a sound: silent ends, dynamic range, spectral flatness, dominant frequency, rhythm.
 
 Pure functions of samples (n,) in any scale and their rate. The offset, which is neither heard nor felt, is removed
 first; otherwise it would count as a loud, steady tone. For spectra the mean is removed, for silent ends the median: a
@@ -47,6 +47,10 @@ FLATNESS_FLOOR_DB = -60.0
 
 HEARD_RANGE_HZ = (10.0, 20_000.0)
 """Range in which the strongest component of a sound is looked for, including what is only felt."""
+
+RHYTHM_RANGE_HZ = (0.5, 60.0)
+SURE_DEPTH = 0.25
+"""Modulation index of an envelope [-] from which every loop cut from a sound has its rate."""
 
 
 def trim_silence(samples: ArrayLike, sample_rate_hz: float) -> Samples:
@@ -189,6 +193,21 @@ def peak_frequency_hz(
         height = np.asarray(centre * 10 ** (weight_db(f) / 20), dtype=np.float64)
     k = first + int(np.argmax(np.where(is_peak, height, 0.0) if is_peak.any() else height))
     return float((k + peak_offset(m[k - 1 : k + 2])) * bin_hz)
+
+
+def rhythm_hz(samples: ArrayLike, sample_rate_hz: float, least_depth: float = SURE_DEPTH) -> float | None:
+    """Return the strongest rate in the Hilbert envelope of a sound (n_samples,) [Hz].
+
+    None if its modulation index is below `least_depth` [-].
+    """
+    x = np.asarray(samples, dtype=np.float64)
+    envelope = np.abs(scipy.signal.hilbert(x - x.mean()))
+    rates = np.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
+    inside = (rates >= RHYTHM_RANGE_HZ[0]) & (rates <= RHYTHM_RANGE_HZ[1])
+    depth = 2.0 * np.abs(scipy.fft.rfft(envelope)) / len(x) / envelope.mean()
+    depth[~inside] = 0.0
+    k = int(np.argmax(depth))
+    return float(rates[k]) if depth[k] >= least_depth else None
 
 
 def _checked(samples: ArrayLike, sample_rate_hz: float) -> tuple[Signal, float]:

@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from scene2hap.audio.actuators import equalize_loop
-from scene2hap.audio.anchor.whole_sound import Anchor, anchor_of, band_of
+from scene2hap.audio.analysis import rhythm_hz
 from scene2hap.audio.clip import AudioClip, Samples
-from scene2hap.audio.distinctness import rhythm_hz
+from scene2hap.audio.felt_component import FeltComponent, felt_component_of
+from scene2hap.audio.felt_component.bands import kept_band
 from scene2hap.audio.haptic_loop import HapticLoop, Sensation
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB, at_level, felt_level_db, sensation_level_db
 from scene2hap.audio.loops import loop_pair
@@ -57,20 +60,20 @@ def plan_scene(
     """
     levels = [sensation_level_db(source.intensity) for source in sources]
     analysed = _analysed(sources, levels, actuator)
-    anchors = [anchor for anchor, _ in analysed]
+    components = [component for component, _ in analysed]
     follows = follows_target(converter)
-    known = [i for i, anchor in enumerate(anchors) if anchor is not None]
+    known = [i for i, component in enumerate(components) if component is not None]
     voices = [
         Voice(
-            source.pitch_hz or (anchor.felt_hz if follows else anchor.frequency_hz),
+            source.pitch_hz or (component.felt_hz if follows else component.frequency_hz),
             level,
             source.group,
-            anchor.crest_db,
+            component.crest_db,
             is_placed=source.keep or source.pitch_hz is not None,
             rhythm_hz=rhythm,
         )
-        for source, level, (anchor, rhythm) in zip(sources, levels, analysed, strict=True)
-        if anchor is not None
+        for source, level, (component, rhythm) in zip(sources, levels, analysed, strict=True)
+        if component is not None
     ]
     fixed = [_standing_voice(loop, group, actuator) for loop, group in standing]
     if follows:
@@ -84,29 +87,34 @@ def plan_scene(
         for own in {source.group for source in sources}
     }
     plans = []
-    for i, (source, anchor) in enumerate(zip(sources, anchors, strict=True)):
+    for i, (source, component) in enumerate(zip(sources, components, strict=True)):
         context = ConversionContext(actuator, source.intensity, neighbours_hz[source.group])
-        if anchor is None:
+        if component is None:
             plans.append(Plan(context, levels[i]))
         else:
-            plans.append(Plan(anchor.within(context, placed[i].target_hz), placed[i].level_db))
+            plans.append(Plan(component.added_to(context, placed[i].target_hz), placed[i].level_db))
     return tuple(plans)
 
 
 def _analysed(
     sources: Sequence[SourceClip], levels: Sequence[float], actuator: ActuatorProfile
-) -> list[tuple[Anchor | None, float | None]]:
-    """Return anchor and rhythm [Hz] of each source; sources that share a clip and a level are analysed once."""
-    known: dict[tuple[int, float], tuple[Anchor | None, float | None]] = {}
+) -> list[tuple[FeltComponent | None, float | None]]:
+    """Return felt component and rhythm [Hz] of each source; sources that share a clip and a level are analysed once."""
+    known: dict[tuple[int, float], tuple[FeltComponent | None, float | None]] = {}
     for source, level in zip(sources, levels, strict=True):
         key, clip = (id(source.clip), level), source.clip
         if key not in known:
-            anchor = anchor_of(clip.samples, clip.sample_rate_hz, level, actuator)
+            component = felt_component_of(clip.samples, clip.sample_rate_hz, level, actuator)
             rhythm = None
-            if anchor is not None:
-                rhythm = anchor.rough_hz or rhythm_hz(band_of(clip, anchor), clip.sample_rate_hz)
-            known[key] = anchor, rhythm
+            if component is not None:
+                rhythm = component.rough_hz or _band_rhythm_hz(clip, component)
+            known[key] = component, rhythm
     return [known[id(source.clip), level] for source, level in zip(sources, levels, strict=True)]
+
+
+def _band_rhythm_hz(clip: AudioClip, component: FeltComponent) -> float | None:
+    x, rate = clip.samples.astype(np.float64), clip.sample_rate_hz
+    return rhythm_hz(kept_band(x, rate, component.frequency_hz, component.q), rate)
 
 
 def _standing_voice(loop: HapticLoop, group: str, actuator: ActuatorProfile) -> Voice:

@@ -11,7 +11,6 @@ All levels here depend on the convention of `audio.threshold` that full scale is
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 
 import numpy as np
 import scipy
@@ -70,40 +69,6 @@ def sensation_level_db(intensity: float) -> float:
 def drive_db(frequencies_hz: ArrayLike, level_db: ArrayLike, actuator: ActuatorProfile) -> NDArray[np.float64]:
     """Return the amplitude that a sine needs on an actuator for a sensation level [dB re full scale]."""
     return threshold_db(frequencies_hz) + np.asarray(level_db, dtype=np.float64) - response_db(actuator, frequencies_hz)
-
-
-def nearest_felt_hz(
-    frequencies_hz: NDArray[np.float64],
-    levels_db: NDArray[np.float64],
-    actuator: ActuatorProfile,
-    peak_db: float,
-    accepted_db: float,
-) -> NDArray[np.float64]:
-    """Return the frequency (n,) nearest to each given one at which an actuator plays a sine of some level [Hz].
-
-    There the sine, with an amplitude of at most `peak_db` re full scale, is felt at most `accepted_db` weaker than at
-    the best frequency of the band. Parameters: frequencies_hz (n,), > 0; levels_db (n,) : sensation levels [dB].
-    """
-    grid_hz, over_level_db = _band(actuator)
-    most_db = np.maximum(peak_db, levels_db + over_level_db.min()) + accepted_db
-    inside = (frequencies_hz >= actuator.min_frequency_hz) & (frequencies_hz <= actuator.max_frequency_hz)
-    stays = inside & (drive_db(frequencies_hz, levels_db, actuator) <= most_db)
-    if stays.all():
-        return frequencies_hz
-    octaves = np.abs(np.log2(grid_hz / frequencies_hz[:, None]))
-    octaves[over_level_db + levels_db[:, None] > most_db[:, None]] = np.inf
-    return np.where(stays, frequencies_hz, grid_hz[octaves.argmin(axis=1)])
-
-
-@lru_cache(maxsize=64)
-def _band(actuator: ActuatorProfile) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Frequencies of a band, 24 per octave (n,) [Hz], and the drive of a sine at the threshold (n,) [dB].
-
-    A step is far below the 22 % in frequency that are just noticed.
-    """
-    low_hz, high_hz = actuator.min_frequency_hz, actuator.max_frequency_hz
-    grid_hz: NDArray[np.float64] = np.geomspace(low_hz, high_hz, 2 + math.ceil(24 * math.log2(high_hz / low_hz)))
-    return grid_hz, drive_db(grid_hz, 0.0, actuator)
 
 
 def felt_spectrum(

@@ -1,7 +1,7 @@
 """Move a scene's sources apart in frequency and level, as little as possible, so that hands can distinguish them.
 
 Two sources are distinct if they differ by two JNDs of frequency, or by one of frequency and two of level
-(`distinctness`). The order of levels is kept, and no source moves to a frequency at which the actuator cannot reach its
+(`threshold`). The order of levels is kept, and no source moves to a frequency at which the actuator cannot reach its
 level. The distances use the widest published JND of frequency if they fit, else the middle one, by which distinctness
 is measured. If distances by the middle JND do not fit either, sources that differ in rhythm may share a frequency. In a
 scene with too many sources, the result is as distinct as the limits allow.
@@ -12,10 +12,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from scene2hap.audio.distinctness import FREQUENCY_WEBER, WIDEST_WEBER
 from scene2hap.audio.spreading.best_response import iterated_best_response
 from scene2hap.audio.spreading.linear_programme import LinearProgramme
 from scene2hap.audio.spreading.placements import Problem, SpreadLimits, Voice
+from scene2hap.audio.threshold import FREQUENCY_WEBER, WIDEST_WEBER
 from scene2hap.haptics import ActuatorProfile
 
 __all__ = ["Placement", "SpreadLimits", "Voice", "spread"]

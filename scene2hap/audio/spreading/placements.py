@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from scene2hap.audio.anchor.whole_sound import Anchor, reachable_hz
-from scene2hap.audio.distinctness import LEVEL_JND_DB, frequency_jnds
+from scene2hap.audio.actuator_range import reachable_hz
+from scene2hap.audio.threshold import LEVEL_JND_DB, frequency_jnds
 from scene2hap.common.settings import Settings
 from scene2hap.haptics import ActuatorProfile
 
@@ -88,7 +88,7 @@ class Problem:
     ) -> Problem:
         """Build the bounds from actuator, levels and limits, for a Weber fraction of frequency."""
         octaves = limits.octaves / _MARGIN
-        reach = [reachable_hz(Anchor(v.own_hz, v.crest_db), v.level_db, actuator, octaves) for v in voices]
+        reach = [reachable_hz(v.own_hz, v.level_db, actuator, octaves, crest_db=v.crest_db) for v in voices]
         low, high, louder = np.array(reach, dtype=np.float64).T
         x0, l0 = np.log2([voice.own_hz for voice in voices]), np.array([voice.level_db for voice in voices])
         free = np.array([0.0 if voice.is_placed else 1.0 for voice in voices])

@@ -17,11 +17,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from scene2hap.audio.distinctness import LEVEL_JND_DB
 from scene2hap.audio.tactile.following import faded, rising_over
 from scene2hap.audio.tactile.onsets import QUIETEST, RISE, STEP_S
 from scene2hap.audio.tactile.stages import Signal, Stage
 from scene2hap.audio.tactile.step_energies import StepEnergies
+from scene2hap.audio.threshold import LEVEL_JND_DB
 
 JND = 10 ** (LEVEL_JND_DB / 10)
 """Ratio of energies that touch just notices, and the largest lift. Only those of dense ticks that follow a pause are

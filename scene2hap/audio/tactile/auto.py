@@ -18,7 +18,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scene2hap.audio.anchor.whole_sound import BAND_Q, CARRIER_RANGE_HZ, HIGHEST_PEAK_DB, best_carrier_hz, is_beep
+from scene2hap.audio.actuator_range import CARRIER_RANGE_HZ, HIGHEST_PEAK_DB, best_carrier_hz
+from scene2hap.audio.felt_component.bands import BAND_Q
+from scene2hap.audio.felt_component.choice import is_beep
 from scene2hap.audio.levels import drive_db, sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.second_order import high_pass

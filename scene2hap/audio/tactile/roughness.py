@@ -16,8 +16,8 @@ from scene2hap.audio.tactile.stages import Signal, SosStage, Stage
 from scene2hap.compiled import compiled
 
 DEPTH = 0.5
-"""Depth of the modulation. It is felt as roughness (the least depth of a rhythm is 0.2, see `distinctness`). Its side
-bands are 12 dB below the bed, so that they do not dominate at frequencies to which touch is more sensitive."""
+"""Depth of the modulation. It is felt as roughness. Its side bands are 12 dB below the bed, so that they do not
+dominate at frequencies to which touch is more sensitive."""
 LINE_Q = 6.0
 """Quality of each of two band-passes in series that leave the rough component alone [-]: wide enough for the speed of
 an engine to waver by 5 %, narrow enough to leave out the next note but one."""

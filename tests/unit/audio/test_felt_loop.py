@@ -73,7 +73,7 @@ def level_db(loop: HapticLoop) -> float:
     return float(10 * np.log10(np.sum((a[inside] / 10 ** (threshold_db(f[inside]) / 20)) ** 2)))
 
 
-# The smallest published Weber fraction, and the one that `distinctness` uses.
+# The smallest published Weber fraction, and the one that `threshold` uses.
 @pytest.mark.parametrize("weber", [0.18, 0.22])
 def test_every_pair_of_the_kitchen_is_distinct(baked: dict[str, tuple[Plan, HapticLoop]], weber: float) -> None:
     for one, other in combinations(baked, 2):

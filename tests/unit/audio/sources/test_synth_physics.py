@@ -15,8 +15,8 @@ import pytest
 from scipy.signal import butter, hilbert, sosfilt
 
 from scene2hap.audio.actuators import actuator_profile
-from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.felt_component import felt_component_of
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.sources.synth.events import blows, bubbles, music
@@ -294,9 +294,9 @@ def test_takes_of_a_machine_are_felt_at_one_frequency(noun: str) -> None:
     for seed in range(10):
         machine = VibrationDescription(noun, name, "", keywords, intensity, (0.3, 0.4, 0.3), seed=seed)
         clip = Synthesizer().find(machine)[0]
-        anchor = anchor_of(clip.samples, clip.sample_rate_hz, level_db, actuator)
-        assert anchor is not None
-        felt_hz.append(anchor.felt_hz)
+        component = felt_component_of(clip.samples, clip.sample_rate_hz, level_db, actuator)
+        assert component is not None
+        felt_hz.append(component.felt_hz)
     assert max(felt_hz) / min(felt_hz) < 2**0.5
 
 
@@ -410,9 +410,11 @@ def test_blades_on_the_shaft_of_a_motor_are_felt_at_its_speed_in_every_take() ->
     wanted = replace(asked("coffee grinder", "grinding", 0.6), size_m=(0.3, 0.4, 0.3))
     for seed in range(24):
         (clip,) = Synthesizer().find(replace(wanted, seed=seed))
-        anchor = anchor_of(clip.samples, clip.sample_rate_hz, sensation_level_db(0.6), actuator_profile("flat"))
-        assert anchor is not None
-        assert 190.0 < anchor.felt_hz < 235.0
+        component = felt_component_of(
+            clip.samples, clip.sample_rate_hz, sensation_level_db(0.6), actuator_profile("flat")
+        )
+        assert component is not None
+        assert 190.0 < component.felt_hz < 235.0
 
 
 def test_rain_is_no_machine() -> None:

@@ -7,7 +7,7 @@ import pytest
 from scipy.signal import sosfreqz
 
 from scene2hap.audio import analysis
-from scene2hap.audio.anchor import anchor_of
+from scene2hap.audio.felt_component import felt_component_of
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.spectra.heard import heard, heard_sections
 from scene2hap.audio.tactile import CONVERTERS
@@ -52,10 +52,10 @@ def test_strokes_in_wind_are_felt_as_strokes() -> None:
     stroke = np.exp(-((T % 1.5) / 0.2)) * np.random.default_rng(7).normal(0.0, 0.1, len(T))
     x = (0.8 * WIND + stroke).astype(np.float32)
     actuator = ActuatorProfile()
-    anchor = anchor_of(x, RATE, 22.0, actuator)
-    assert anchor is not None
+    component = felt_component_of(x, RATE, 22.0, actuator)
+    assert component is not None
     context = ConversionContext(
-        actuator, 0.3, own_hz=anchor.frequency_hz, target_hz=anchor.carrier_hz, band_db=anchor.band_db
+        actuator, 0.3, own_hz=component.frequency_hz, target_hz=component.carrier_hz, band_db=component.band_db
     )
     stream = CONVERTERS.build("auto").stream(RATE, context)
     felt = np.concatenate([stream.process(x), stream.finish()])

@@ -9,10 +9,10 @@ import pytest
 import soundfile
 
 from scene2hap.audio.actuators import actuator_profile
-from scene2hap.audio.anchor import anchor_of
-from scene2hap.audio.anchor.moving_pitch import growth_db, moving_pitch
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert, convert_clip
+from scene2hap.audio.felt_component import felt_component_of
+from scene2hap.audio.felt_component.moving_pitch import growth_db, moving_pitch
 from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
@@ -97,7 +97,7 @@ def test_a_sound_without_moving_pitch_keeps_its_band(kind: str) -> None:
         "impulses": 0.3 * np.exp(-(T % 0.1) / 1e-3) * noise.clip(-2, 2),
         "silence": np.zeros(len(T)),
     }[kind]
-    found = anchor_of(sound, RATE, sensation_level_db(1.0), actuator_profile("flat"))
+    found = felt_component_of(sound, RATE, sensation_level_db(1.0), actuator_profile("flat"))
     assert found is None or found.band_q is None
 
 
@@ -108,7 +108,7 @@ def test_beating_lines_are_not_a_pitch_that_moves() -> None:
     beats = 0.6 * (0.3 * order + 0.2 * pull)
     assert growth_db(sound, beats, 16.0) > 3.0
     assert moving_pitch(sound, RATE, (20.0, 1000.0), 2.0) is None
-    found = anchor_of(sound, RATE, sensation_level_db(0.1), actuator_profile("flat"))
+    found = felt_component_of(sound, RATE, sensation_level_db(0.1), actuator_profile("flat"))
     assert found is not None
     assert found.felt_hz == pytest.approx(99.6, abs=0.5)
 
@@ -147,7 +147,7 @@ def test_a_melody_is_told_at_a_note_that_vibrates_and_sounds(neighbour_hz: float
 def test_a_moving_pitch_has_no_roughness() -> None:
     """On a narrow actuator, which plays none of its notes, a melody of 66 and 117 Hz was rough at 88 Hz, then at 66."""
     hz = np.where(np.floor(T / 0.5) % 2 > 0, 66.0, 117.0)
-    found = anchor_of(np.sin(2 * np.pi * np.cumsum(hz) / RATE), RATE, 20.0, actuator_profile("lra"))
+    found = felt_component_of(np.sin(2 * np.pi * np.cumsum(hz) / RATE), RATE, 20.0, actuator_profile("lra"))
     assert found is not None
     assert found.band_q is not None
     assert found.rough_hz is None
