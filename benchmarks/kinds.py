@@ -42,9 +42,9 @@ from scene2hap import (
     bake as bake_scene,
 )
 from scene2hap.audio.felt_component import felt_component_of
-from scene2hap.audio.felt_loop import Plan, felt_loop
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.scene_loops import Plan, felt_loop
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.threshold import threshold_db
 

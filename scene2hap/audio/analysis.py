@@ -3,7 +3,7 @@
 Pure functions of samples (n,) in any scale and their rate. The offset, which is neither heard nor felt, is removed
 first; otherwise it would count as a loud, steady tone. For spectra the mean is removed, for silent ends the median: a
 few strokes in digital silence have a mean, whose removal would turn the silence into a steady level. The dynamic range
-is that of the sound as it is heard (`heard`).
+is that of the sound without infrasound.
 """
 
 from __future__ import annotations
@@ -14,18 +14,18 @@ from collections.abc import Callable
 import numpy as np
 import scipy
 from numpy.lib.stride_tricks import sliding_window_view
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from scene2hap.audio.clip import Samples
+from scene2hap.audio.infrasound import without_infrasound
 from scene2hap.audio.spectra.components import peak_offset
-from scene2hap.audio.spectra.heard import heard
 from scene2hap.audio.spectra.windows import hann
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import AudioError
 
-Signal = NDArray[np.float64]
-Weight = Callable[[Signal], Signal]
+Weight = Callable[[Floats], Floats]
 
 TRIM_DB = 40.0
 """Frames this far below the loudest one are silence at the ends [dB]; assumed, as in most trimming programs."""
@@ -89,7 +89,7 @@ def dynamic_range_db(samples: ArrayLike, sample_rate_hz: float, *, dominant_hz: 
     Raises: AudioError: the samples are empty or all equal.
     """
     x, rate = _sounding(samples, sample_rate_hz)
-    x = heard(x, rate)
+    x = without_infrasound(x, rate)
     is_slow = (dominant_frequency_hz(x, rate) if dominant_hz is None else dominant_hz) < SLOW_HZ
     frames = _frames(x, round((SLOW_LEVEL_FRAME_S if is_slow else LEVEL_FRAME_S) * rate))
     power = np.mean(frames**2, axis=1)
@@ -210,7 +210,7 @@ def rhythm_hz(samples: ArrayLike, sample_rate_hz: float, least_depth: float = SU
     return float(rates[k]) if depth[k] >= least_depth else None
 
 
-def _checked(samples: ArrayLike, sample_rate_hz: float) -> tuple[Signal, float]:
+def _checked(samples: ArrayLike, sample_rate_hz: float) -> tuple[Floats, float]:
     """Return the samples as float64 without their mean, and the rate."""
     rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=AudioError)
     x = np.asarray(samples, dtype=np.float64)
@@ -219,14 +219,14 @@ def _checked(samples: ArrayLike, sample_rate_hz: float) -> tuple[Signal, float]:
     return x - x.mean(), rate
 
 
-def _sounding(samples: ArrayLike, sample_rate_hz: float) -> tuple[Signal, float]:
+def _sounding(samples: ArrayLike, sample_rate_hz: float) -> tuple[Floats, float]:
     x, rate = _checked(samples, sample_rate_hz)
     if np.ptp(x) == 0.0:
         raise AudioError(f"all {len(x)} samples are equal; silence has neither level nor spectrum. Drop this sound.")
     return x, rate
 
 
-def _frames(x: Signal, size: int) -> Signal:
+def _frames(x: Floats, size: int) -> Floats:
     """Return frames (n_frames, size) that overlap by half; the whole signal if it is shorter than one."""
     size = min(max(size, 2), len(x))
     return sliding_window_view(x, size)[:: max(1, size // 2)]

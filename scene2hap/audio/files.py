@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap.audio.clip import AudioClip, Credit, Samples
 from scene2hap.audio.loop_marks import marked_loop, with_loop
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats, Ints
 from scene2hap.common.files import LFS_ADVICE, draft_of, is_lfs_pointer, is_there, path_in_c
 from scene2hap.errors import AudioError, reason_of, unwritable
 
@@ -125,12 +126,12 @@ class Mixdown:
 
     def __init__(self) -> None:
         self._n = 0
-        self._sums: NDArray[np.float64] = np.zeros((2, 1))  # of samples and squares
+        self._sums: Floats = np.zeros((2, 1))  # of samples and squares
 
-    def mean(self, channels: Samples) -> NDArray[np.float64]:
+    def mean(self, channels: Samples) -> Floats:
         """Return the mean of samples (n, n_channels), as (n,)."""
         rows = np.ascontiguousarray(channels.T, dtype=np.float64)  # sums along rows are several times as fast
-        mean: NDArray[np.float64] = rows.mean(axis=0)
+        mean: Floats = rows.mean(axis=0)
         if len(rows) > 1:
             everything = [*rows, mean]
             self._sums = self._sums + np.array([[row.sum() for row in everything], [row @ row for row in everything]])
@@ -269,7 +270,7 @@ def sound_digest(clip: AudioClip) -> str:
     return hashlib.sha256(f"{clip.sample_rate_hz} Hz ".encode() + samples.astype("<i4").tobytes()).hexdigest()[:32]
 
 
-def _steps(samples: ArrayLike, bits: int) -> NDArray[np.int64]:
+def _steps(samples: ArrayLike, bits: int) -> Ints:
     """Return samples in integer steps of 2^-(bits-1); +1 loses one step."""
     full_scale = 2.0 ** (bits - 1)
     steps = np.rint(np.asarray(samples, dtype=np.float64) * full_scale)

@@ -1,7 +1,7 @@
 """Conversion of one sound file, block by block, so that memory does not grow with its length.
 
 The converter gets the sound without its offset. Its output is equalized for the actuator and scaled to the level of the
-source, as the loops of a scene are (`felt_loop`). The level is known at the end only, so the vibration is stored in a
+source, as the loops of a scene are (`scene_loops`). The level is known at the end only, so the vibration is stored in a
 temporary file until then.
 """
 

@@ -37,6 +37,7 @@ from scene2hap.audio.actuator_range import HIGHEST_PEAK_DB, TONES_HZ, best_carri
 from scene2hap.audio.actuators import MAX_BOOST_DB, response_db
 from scene2hap.audio.felt_component.bands import BAND_Q, SoundBands, fast_length
 from scene2hap.audio.felt_component.moving_pitch import MovingPitch, moving_pitch
+from scene2hap.audio.infrasound import without_infrasound
 from scene2hap.audio.levels import drive_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.spectra.components import (
@@ -47,7 +48,6 @@ from scene2hap.audio.spectra.components import (
     strongest_bands_hz,
     strongest_component,
 )
-from scene2hap.audio.spectra.heard import heard
 from scene2hap.audio.threshold import NOTICED_DB
 from scene2hap.common.arrays import Floats
 from scene2hap.haptics import ActuatorProfile
@@ -132,7 +132,7 @@ def felt_component_of(
     low = _strongest_in_reach(magnitude, sample_rate_hz, loudest)
     strongest = loudest if low is None else low
     candidates_hz = [] if low is None else _candidates_hz(magnitude, sample_rate_hz, low, actuator)
-    bands = SoundBands(heard(x[: fast_length(len(x))], sample_rate_hz), sample_rate_hz, actuator)
+    bands = SoundBands(without_infrasound(x[: fast_length(len(x))], sample_rate_hz), sample_rate_hz, actuator)
     drives = _Drives(bands, sample_rate_hz, level_db, actuator)
     # A slow one is kept as the roughness of a line that reaches the level.
     identity_hz = strongest.hz if strongest.hz > _SLOW_HZ else 0.0

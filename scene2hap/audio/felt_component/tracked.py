@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.audio.actuator_range import HIGHEST_PEAK_DB, TONES_HZ, rendered_hz
 from scene2hap.audio.felt_component.choice import FAINTEST_DB
 from scene2hap.audio.levels import drive_db
 from scene2hap.audio.spectra.components import magnitudes, peaks
 from scene2hap.audio.threshold import NOTICED_DB
+from scene2hap.common.arrays import Floats
 from scene2hap.haptics import ActuatorProfile
 
 LOST_DB = 12.0
@@ -33,10 +33,10 @@ class TrackedComponent:
 
     def __init__(self, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> None:
         self._rate_hz, self._level_db, self._actuator = sample_rate_hz, level_db, actuator
-        self._power: NDArray[np.float64] | None = None
+        self._power: Floats | None = None
         self.own_hz: float | None = None
 
-    def analyse(self, stretch: NDArray[np.float64]) -> float | None:
+    def analyse(self, stretch: Floats) -> float | None:
         """Analyse another stretch (n_samples,). Returns the felt frequency [Hz], None while there is no sound."""
         magnitude = magnitudes(stretch)
         self._power = self._averaged(magnitude)
@@ -55,7 +55,7 @@ class TrackedComponent:
         self.own_hz = float(hz[best])
         return self.own_hz
 
-    def _averaged(self, magnitude: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _averaged(self, magnitude: Floats) -> Floats:
         """Return the power of each bin, averaged over stretches; of this stretch alone if it lacks the component."""
         power = magnitude**2
         before, own_hz = self._power, self.own_hz
@@ -68,7 +68,7 @@ class TrackedComponent:
             return power
         return _NEW_SHARE * power + (1.0 - _NEW_SHARE) * before
 
-    def passed_power(self, passes: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> float:
+    def passed_power(self, passes: Callable[[Floats], Floats]) -> float:
         """Return the averaged power [-] that a filter with this gain of power over frequency [Hz] passes."""
         if self._power is None:
             return 0.0

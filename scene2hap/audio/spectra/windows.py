@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+
+from scene2hap.common.arrays import Floats
 
 
-def hann(n: int) -> NDArray[np.float64]:
+def hann(n: int) -> Floats:
     """Return Hann's window (n,) without the zeros at its ends, which would leave out two samples.
 
     It is `numpy.hanning(n + 2)[1:-1]`, to the last bit, in a fourth of the time.

@@ -26,10 +26,11 @@ from scene2hap.audio.felt_component.bands import BAND_Q, band_gain
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.frequency_shift import ShiftStage
-from scene2hap.audio.tactile.stages import Chain, InStep, Signal, SosStage, Stage, StageStream
+from scene2hap.audio.tactile.stages import Chain, InStep, SosStage, Stage, StageStream
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.audio.threshold import FREQUENCY_WEBER
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import ConfigError
 
 _LOOK_S = 0.5
@@ -150,7 +151,7 @@ class _Tracking(Stage):
         self._retiring: Stage | None = None
         self._n_faded = 0
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         parts = []
         while x.size:
             n = min(len(x), len(self._seen) - self._n_seen)
@@ -169,7 +170,7 @@ class _Tracking(Stage):
             return parts[0]
         return np.concatenate(parts) if parts else x
 
-    def _filtered(self, x: Signal) -> Signal:
+    def _filtered(self, x: Floats) -> Floats:
         y = self._gain * self._band.run(x)
         if self._retiring is None:
             return y

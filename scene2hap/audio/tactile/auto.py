@@ -21,10 +21,10 @@ from dataclasses import dataclass
 from scene2hap.audio.actuator_range import CARRIER_RANGE_HZ, HIGHEST_PEAK_DB, best_carrier_hz
 from scene2hap.audio.felt_component.bands import BAND_Q
 from scene2hap.audio.felt_component.choice import is_beep
+from scene2hap.audio.infrasound import infrasound_filter
 from scene2hap.audio.levels import drive_db, sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.second_order import high_pass
-from scene2hap.audio.spectra.heard import heard_sections
 from scene2hap.audio.tactile.adaptive import Adaptive, band_around
 from scene2hap.audio.tactile.attacks import EmphasizedAttacks
 from scene2hap.audio.tactile.bursts import WithBursts
@@ -90,7 +90,7 @@ class Auto(Adaptive):
             bed_db=share_db,
             ringing_s=ringing_s(context.actuator) if is_known else 0.0,
         )
-        parts: list[Stage] = [WholeSteps(with_bursts.step), SosStage(heard_sections(sample_rate_hz))]
+        parts: list[Stage] = [WholeSteps(with_bursts.step), SosStage(infrasound_filter(sample_rate_hz))]
         parts.append(EmphasizedAttacks(with_bursts, with_bursts.step) if is_known else with_bursts)
         if bed_db is None:
             return StageStream(*parts)

@@ -18,9 +18,10 @@ import scipy
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.sections import through_sections
-from scene2hap.audio.tactile.stages import Signal, Stage, StageStream
+from scene2hap.audio.tactile.stages import Stage, StageStream
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import ConfigError
 
 _LOWEST_HZ = TACTILE_RANGE_HZ[0]
@@ -95,7 +96,7 @@ class ShiftStage(Stage):
         _, (at_zero, near) = scipy.signal.sosfreqz(self._sections, [0.0, self._slow])
         return round(float(-np.angle(near / at_zero)) / self._slow)
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return as many samples as given."""
         if x.size == 0:
             return x
@@ -107,7 +108,7 @@ class ShiftStage(Stage):
 
 
 @lru_cache(maxsize=8)
-def _steep_low_pass(pass_hz: float, stop_hz: float, sample_rate_hz: float) -> Signal:
+def _steep_low_pass(pass_hz: float, stop_hz: float, sample_rate_hz: float) -> Floats:
     """Return an elliptic low-pass (n_sections, 6). The streams of a sound's channels share it."""
     order, _ = scipy.signal.ellipord(pass_hz, stop_hz, _RIPPLE_DB, _STOP_DB, fs=sample_rate_hz)
     return np.asarray(scipy.signal.ellip(order, _RIPPLE_DB, _STOP_DB, pass_hz, fs=sample_rate_hz, output="sos"))

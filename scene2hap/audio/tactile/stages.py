@@ -10,13 +10,11 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.audio.clip import Samples
 from scene2hap.audio.tactile.sections import through_sections
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import AudioError
-
-Signal = NDArray[np.float64]
 
 _CACHED = 65_536
 """Samples per pass: passes that fit the processor's cache are twice as fast as one pass over a long sound."""
@@ -26,10 +24,10 @@ class Stage(ABC):
     """One step of a conversion."""
 
     @abstractmethod
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return the next samples (n,); a stage with latency holds some back."""
 
-    def rest(self) -> Signal:
+    def rest(self) -> Floats:
         """Return the samples that were held back; none without latency."""
         return np.empty(0)
 
@@ -63,7 +61,7 @@ class StageStream:
         """Return the samples that are still held back."""
         return self._clipped(self._chain.rest())
 
-    def _clipped(self, x: Signal) -> Samples:
+    def _clipped(self, x: Floats) -> Samples:
         if x.size and (size := np.abs(x)).max() > 1.0:
             self.n_clipped += int(np.count_nonzero(size > 1.0))
             x = np.clip(x, -1.0, 1.0)
@@ -76,7 +74,7 @@ class Chain(Stage):
     def __init__(self, stages: Sequence[Stage]) -> None:
         self.stages = stages
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return the next samples; stages with latency hold some back."""
         for stage in self.stages:
             if x.size == 0:
@@ -84,7 +82,7 @@ class Chain(Stage):
             x = stage.run(x)
         return x
 
-    def rest(self) -> Signal:
+    def rest(self) -> Floats:
         """Return the samples that all stages have held back."""
         left = np.empty(0)
         for stage in self.stages:
@@ -99,14 +97,14 @@ class InStep(Stage):
         self._stage, self._n_late = stage, n_late
         self._n_dropped = 0
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return as many samples as given, at first fewer."""
         y = self._stage.run(x)
         n = min(self._n_late - self._n_dropped, len(y))
         self._n_dropped += n
         return y[n:]
 
-    def rest(self) -> Signal:
+    def rest(self) -> Floats:
         """Return the samples that were held back, as if silence followed."""
         return self._stage.run(np.zeros(self._n_late))[self._n_late - self._n_dropped :]
 
@@ -119,10 +117,10 @@ class WholeSteps(Stage):
 
     def __init__(self, step: int) -> None:
         self._step = step
-        self._held: list[Signal] = []
+        self._held: list[Floats] = []
         self._n_held = 0
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return the steps that are complete now."""
         self._held.append(x)
         self._n_held += len(x)
@@ -134,7 +132,7 @@ class WholeSteps(Stage):
         self._held = [held[n:]]
         return held[:n]
 
-    def rest(self) -> Signal:
+    def rest(self) -> Floats:
         """Return the samples of the incomplete step."""
         return np.concatenate([np.empty(0), *self._held])
 
@@ -142,16 +140,16 @@ class WholeSteps(Stage):
 class SosStage(Stage):
     """A filter of second-order sections (n_sections, 6) with carried state."""
 
-    def __init__(self, sections: Signal) -> None:
+    def __init__(self, sections: Floats) -> None:
         self.sections = sections
-        self.state: NDArray[np.float64] = np.zeros((len(sections), 2))
+        self.state: Floats = np.zeros((len(sections), 2))
         self._rows = self.state[:, None]  # as `through_sections` needs it
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return as many samples as given."""
         if x.size == 0:
             return x
-        y: Signal = through_sections(self.sections, x[None], self._rows)[0]
+        y: Floats = through_sections(self.sections, x[None], self._rows)[0]
         return y
 
 
@@ -161,6 +159,6 @@ class Scaled(Stage):
     def __init__(self, gain: float) -> None:
         self._gain = gain
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return as many samples as given."""
         return self._gain * x

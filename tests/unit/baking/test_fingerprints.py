@@ -13,9 +13,9 @@ import soundfile
 
 from scene2hap import AudioClip, BakeConfig, Credit, HapticBundle, SceneSnapshot, VibrationDescription, bake, rebake
 from scene2hap.audio.actuators import ACTUATORS
-from scene2hap.audio.felt_loop import Plan
 from scene2hap.audio.levels import felt_level_db
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.scene_loops import Plan
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.tactile.adaptive import Adaptive
 from scene2hap.audio.tactile.stages import StageStream

@@ -14,8 +14,8 @@ from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.felt_component import felt_component_of
 from scene2hap.audio.felt_component.bands import fast_length
-from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.levels import felt_level_db, sensation_level_db, threshold_db
+from scene2hap.audio.scene_loops import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.haptics import ActuatorProfile
 from sound_draws import band_noise, coloured_noise

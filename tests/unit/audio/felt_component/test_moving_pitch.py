@@ -13,12 +13,12 @@ from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert, convert_clip
 from scene2hap.audio.felt_component import felt_component_of
 from scene2hap.audio.felt_component.moving_pitch import growth_db, moving_pitch
-from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.scene_loops import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.tactile.adaptive import Adaptive
 from scene2hap.audio.tactile.auto import Auto
-from scene2hap.audio.tactile.stages import Signal
+from scene2hap.common.arrays import Floats
 
 pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.audio.conversion.LevelWarning")
 
@@ -26,16 +26,16 @@ RATE = 16_000
 T = np.arange(16 * RATE) / RATE
 
 
-def engine(low_hz: float, high_hz: float, n_orders: int = 12, seed: int = 3) -> Signal:
+def engine(low_hz: float, high_hz: float, n_orders: int = 12, seed: int = 3) -> Floats:
     """Orders of a speed that rises and falls in 8 s, each of constant amplitude, and a little noise."""
     middle, reach = 0.5 * (low_hz + high_hz), 0.5 * (high_hz - low_hz)
     phase = 2 * np.pi * np.cumsum(middle - reach * np.cos(2 * np.pi * T / 8)) / RATE
     x = sum((np.sin(k * phase + k * k) / k for k in range(1, n_orders + 1)), np.zeros(len(T)))
-    sound: Signal = 0.6 * x / np.abs(x).max() + 0.002 * np.random.default_rng(seed).standard_normal(len(T))
+    sound: Floats = 0.6 * x / np.abs(x).max() + 0.002 * np.random.default_rng(seed).standard_normal(len(T))
     return sound
 
 
-def range_db(x: Signal, rate: int = RATE) -> float:
+def range_db(x: Floats, rate: int = RATE) -> float:
     """Range from the 5th to the 95th percentile of the level in 0.1 s [dB]."""
     n = rate // 10
     level = 10 * np.log10((x[: len(x) // n * n].reshape(-1, n) ** 2).mean(axis=1) + 1e-12)

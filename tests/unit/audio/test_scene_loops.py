@@ -13,10 +13,10 @@ from scipy.signal import hilbert
 
 from scene2hap.audio.actuators import ACTUATORS
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.felt_loop import Plan, SourceClip, felt_loop, plan_scene
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import threshold_db
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.scene_loops import Plan, SourceClip, felt_loop, plan_scene
 from scene2hap.audio.select import select_clip
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.tactile.adaptive import Adaptive
@@ -202,6 +202,6 @@ def test_sources_that_share_a_sound_are_analysed_once(monkeypatch: pytest.Monkey
     def noted(samples: np.ndarray, sample_rate_hz: float) -> None:
         measured.append(len(samples))
 
-    monkeypatch.setattr("scene2hap.audio.felt_loop.rhythm_hz", noted)
+    monkeypatch.setattr("scene2hap.audio.scene_loops.rhythm_hz", noted)
     plan_scene([*kitchen().values()] * 5, Adaptive(), FLAT)
     assert 0 < len(measured) <= len(kitchen())

@@ -16,7 +16,7 @@ from scene2hap.audio.haptic_loop import HapticLoop, Sensation
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB, at_level, felt_level_db, sensation_level_db
 from scene2hap.audio.loops import loop_pair
 from scene2hap.audio.protocol import ConversionContext, TactileConverter, follows_target
-from scene2hap.audio.spreading import Placement, SpreadLimits, Voice, spread
+from scene2hap.audio.spreading import FeltSource, Placement, SpreadLimits, spread
 from scene2hap.haptics import ActuatorProfile
 
 _PEAK = 10 ** (-TACTILE_HEADROOM_DB / 20)
@@ -63,8 +63,8 @@ def plan_scene(
     components = [component for component, _ in analysed]
     follows = follows_target(converter)
     known = [i for i, component in enumerate(components) if component is not None]
-    voices = [
-        Voice(
+    movable = [
+        FeltSource(
             source.pitch_hz or (component.felt_hz if follows else component.frequency_hz),
             level,
             source.group,
@@ -75,13 +75,13 @@ def plan_scene(
         for source, level, (component, rhythm) in zip(sources, levels, analysed, strict=True)
         if component is not None
     ]
-    fixed = [_standing_voice(loop, group, actuator) for loop, group in standing]
+    fixed = [_standing_source(loop, group, actuator) for loop, group in standing]
     if follows:
-        placed = dict(zip(known, spread([*voices, *fixed], actuator, limits), strict=False))
+        placed = dict(zip(known, spread([*movable, *fixed], actuator, limits), strict=False))
     else:
-        placed = {i: Placement(voice.own_hz, voice.level_db) for i, voice in zip(known, voices, strict=True)}
+        placed = {i: Placement(one.own_hz, one.level_db) for i, one in zip(known, movable, strict=True)}
     others = [(place.target_hz, sources[i].group) for i, place in placed.items()]
-    others += [(voice.own_hz, voice.group) for voice in fixed]
+    others += [(one.own_hz, one.group) for one in fixed]
     neighbours_hz = {
         own: tuple(dict.fromkeys(frequency for frequency, group in others if group != own))
         for own in {source.group for source in sources}
@@ -117,11 +117,11 @@ def _band_rhythm_hz(clip: AudioClip, component: FeltComponent) -> float | None:
     return rhythm_hz(kept_band(x, rate, component.frequency_hz, component.q), rate)
 
 
-def _standing_voice(loop: HapticLoop, group: str, actuator: ActuatorProfile) -> Voice:
+def _standing_source(loop: HapticLoop, group: str, actuator: ActuatorProfile) -> FeltSource:
     clip = loop.tactile
     level_db = felt_level_db(clip.samples, clip.sample_rate_hz, actuator)
     rhythm = rhythm_hz(clip.samples, clip.sample_rate_hz)
-    return Voice(loop.frequency_tactile_hz, level_db, group, is_placed=True, rhythm_hz=rhythm)
+    return FeltSource(loop.frequency_tactile_hz, level_db, group, is_placed=True, rhythm_hz=rhythm)
 
 
 def felt_loop(clip: AudioClip, converter: TactileConverter, plan: Plan) -> HapticLoop:
