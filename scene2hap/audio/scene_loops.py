@@ -12,10 +12,11 @@ from scene2hap.audio.analysis import rhythm_hz
 from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.audio.felt_component import FeltComponent, felt_component_of
 from scene2hap.audio.felt_component.bands import kept_band
-from scene2hap.audio.haptic_loop import HapticLoop, Sensation
+from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB, at_level, felt_level_db, sensation_level_db
 from scene2hap.audio.loops import loop_pair
 from scene2hap.audio.protocol import ConversionContext, TactileConverter, follows_target
+from scene2hap.audio.sensation import Sensation
 from scene2hap.audio.spreading import FeltSource, Placement, SpreadLimits, spread
 from scene2hap.haptics import ActuatorProfile
 
@@ -60,11 +61,9 @@ def plan_scene(
     """
     levels = [sensation_level_db(source.intensity) for source in sources]
     analysed = _analysed(sources, levels, actuator)
-    components = [component for component, _ in analysed]
     follows = follows_target(converter)
-    known = [i for i, component in enumerate(components) if component is not None]
-    movable = [
-        FeltSource(
+    movable = {
+        i: FeltSource(
             source.pitch_hz or (component.felt_hz if follows else component.frequency_hz),
             level,
             source.group,
@@ -72,14 +71,14 @@ def plan_scene(
             is_placed=source.keep or source.pitch_hz is not None,
             rhythm_hz=rhythm,
         )
-        for source, level, (component, rhythm) in zip(sources, levels, analysed, strict=True)
+        for i, (source, level, (component, rhythm)) in enumerate(zip(sources, levels, analysed, strict=True))
         if component is not None
-    ]
+    }
     fixed = [_standing_source(loop, group, actuator) for loop, group in standing]
     if follows:
-        placed = dict(zip(known, spread([*movable, *fixed], actuator, limits), strict=False))
+        placed = dict(zip(movable, spread([*movable.values(), *fixed], actuator, limits), strict=False))
     else:
-        placed = {i: Placement(one.own_hz, one.level_db) for i, one in zip(known, movable, strict=True)}
+        placed = {i: Placement(one.own_hz, one.level_db) for i, one in movable.items()}
     others = [(place.target_hz, sources[i].group) for i, place in placed.items()]
     others += [(one.own_hz, one.group) for one in fixed]
     neighbours_hz = {
@@ -87,7 +86,7 @@ def plan_scene(
         for own in {source.group for source in sources}
     }
     plans = []
-    for i, (source, component) in enumerate(zip(sources, components, strict=True)):
+    for i, (source, (component, _)) in enumerate(zip(sources, analysed, strict=True)):
         context = ConversionContext(actuator, source.intensity, neighbours_hz[source.group])
         if component is None:
             plans.append(Plan(context, levels[i]))

@@ -16,7 +16,7 @@ from threading import Lock
 import numpy as np
 
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.files import as_stored, sound_digest
+from scene2hap.audio.encoding import as_stored, sound_digest
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.loops import middle_of, without_silent_ends
 from scene2hap.audio.protocol import follows_target

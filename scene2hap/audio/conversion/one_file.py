@@ -25,7 +25,6 @@ from scene2hap.audio.conversion.reading import SoundReader
 from scene2hap.audio.conversion.writing import FORMATS, check_target, opened_for_writing, write_blocks
 from scene2hap.audio.felt_component import felt_component_of
 from scene2hap.audio.files import Mixdown, opened_sound, written_whole
-from scene2hap.audio.haptic_loop import LevelWarning, Sensation, level_doubt
 from scene2hap.audio.levels import FAINTEST_PEAK_DB, FULL_LEVEL_DB, sensation_level_db
 from scene2hap.audio.loop_marks import is_marked_whole, with_loop
 from scene2hap.audio.protocol import (
@@ -38,6 +37,7 @@ from scene2hap.audio.protocol import (
     opened_stream,
     require_in_step,
 )
+from scene2hap.audio.sensation import LevelWarning, Sensation, level_doubt
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.common import checks
 from scene2hap.common.blas_threads import one_blas_thread

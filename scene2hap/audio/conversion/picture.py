@@ -13,8 +13,8 @@ from PIL import Image, ImageDraw, ImageFont
 
 from scene2hap.audio.conversion.meter import Meter
 from scene2hap.audio.files import opened_sound
-from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.audio.levels import drive_db
+from scene2hap.audio.sensation import Sensation
 from scene2hap.audio.spectra.windows import hann
 from scene2hap.common.arrays import Floats, Floats32
 from scene2hap.haptics import ActuatorProfile

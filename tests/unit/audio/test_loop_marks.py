@@ -9,7 +9,8 @@ import pytest
 import soundfile
 
 from scene2hap import AudioClip
-from scene2hap.audio.files import encoded, read_clip
+from scene2hap.audio.encoding import encoded
+from scene2hap.audio.files import read_clip
 from scene2hap.audio.loops import LoopWarning, loop_pair, middle_of
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.recorded_runs import recorded_runs

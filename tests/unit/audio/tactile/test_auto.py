@@ -7,10 +7,10 @@ import pytest
 
 from scene2hap.audio.actuators import actuator_profile
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.audio.infrasound import infrasound_filter
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.scene_loops import Plan, SourceClip, felt_loop, plan_scene
+from scene2hap.audio.sensation import Sensation
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.audio.tactile.stages import SosStage
 from scene2hap.errors import AudioError
