@@ -10,9 +10,8 @@ from pathlib import Path
 import numpy as np
 import soundfile
 
-from scene2hap.audio.conversion.clips import PRE_ROLL_S
+from scene2hap.audio.conversion.clips import PRE_ROLL_S, with_repetitions
 from scene2hap.audio.conversion.meter import Block, Meter
-from scene2hap.audio.conversion.repetition import with_repetitions
 from scene2hap.audio.files import MAX_SAMPLE, Mixdown, opened_sound, require_finite
 from scene2hap.audio.loop_marks import LONGEST_MARK_S, SHORTEST_MARK_S
 from scene2hap.audio.tactile.sections import through_sections

@@ -6,6 +6,7 @@ Two band-passes in series have the gain B(f) = 1 / (1 + Q^2 (f / f_0 - f_0 / f)^
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections.abc import Callable
 
 import numpy as np
 import scipy
@@ -92,13 +93,14 @@ class SoundBands:
         rms = float(np.sqrt(2.0 * np.sum(np.abs(band) ** 2)))
         return 20.0 * float(np.log10(_peak(signal) / (np.sqrt(2.0) * rms)))
 
-    def share_db(self, own_hz: float, q: float) -> float:
-        """Return the level of a band relative to the whole sound [dB]."""
-        return self._share_db(band_gain(self._f, own_hz, q) ** 2)
+    def share_db(self, passes: Callable[[Floats], Floats]) -> float:
+        """Return the level of what a filter keeps, relative to the whole sound [dB].
 
-    def share_above_db(self, cutoff_hz: float) -> float:
-        """Return the level of what a Butterworth high-pass of second order keeps, relative to the whole sound [dB]."""
-        return self._share_db(1.0 / (1.0 + (cutoff_hz / np.maximum(self._f, 1e-3)) ** 4))
+        It is rounded: the last digits of a sum depend on the machine, and would change each sample of a loop.
+        Parameters: passes : returns the gain of power (n,) [-] at frequencies (n,) [Hz].
+        """
+        kept, whole = self._power @ passes(self._f), self._power.sum()
+        return round(10.0 * float(np.log10(max(kept, 1e-300) / max(whole, 1e-300))), 2)
 
     def growth_db(self, own_hz: float, q: float) -> float:
         """Return the range of a band's level minus that of the sound [dB], see `moving_pitch.growth_db`."""
@@ -108,12 +110,6 @@ class SoundBands:
         """Return the sound (m,) at the lowest rate that suits its part up to a frequency, and this rate [Hz]."""
         n = min(scipy.fft.next_fast_len(round(2.5 * highest_hz * self._n / self._rate_hz), real=True), self._n)
         return scipy.fft.irfft(self._spectrum[: n // 2 + 1], n), self._rate_hz * n / self._n
-
-    def _share_db(self, gain_of_power: Floats) -> float:
-        """Return a relative level, rounded: the last digits of a sum depend on the machine, and would change each
-        sample of a loop."""
-        kept, whole = self._power @ gain_of_power, self._power.sum()
-        return round(10.0 * float(np.log10(max(kept, 1e-300) / max(whole, 1e-300))), 2)
 
     def _band(self, own_hz: float, q: float) -> tuple[Complex, Floats]:
         """Return the spectrum of a band and the band itself (n,), both divided by n. The latest one is kept."""

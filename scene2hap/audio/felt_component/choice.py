@@ -35,7 +35,7 @@ from numpy.typing import ArrayLike
 
 from scene2hap.audio.actuator_range import HIGHEST_PEAK_DB, TONES_HZ, best_carrier_hz, rendered_hz
 from scene2hap.audio.actuators import MAX_BOOST_DB, response_db
-from scene2hap.audio.felt_component.bands import BAND_Q, SoundBands, fast_length
+from scene2hap.audio.felt_component.bands import BAND_Q, SoundBands, band_gain, fast_length
 from scene2hap.audio.felt_component.moving_pitch import MovingPitch, moving_pitch
 from scene2hap.audio.infrasound import without_infrasound
 from scene2hap.audio.levels import drive_db
@@ -268,9 +268,10 @@ class _Drives:
 
     def band_db(self, found: FeltComponent) -> float:
         """Return the level of the kept part of the sound, relative to the whole sound [dB]."""
-        if is_beep(found.frequency_hz, found.felt_hz):
-            return self._bands.share_above_db(0.5 * found.frequency_hz)
-        return self._bands.share_db(found.frequency_hz, found.q)
+        own_hz, q = found.frequency_hz, found.q
+        if is_beep(own_hz, found.felt_hz):  # the converter keeps all that a high-pass at half its frequency keeps
+            return self._bands.share_db(lambda f: 1.0 / (1.0 + (0.5 * own_hz / np.maximum(f, 1e-3)) ** 4))
+        return self._bands.share_db(lambda f: band_gain(f, own_hz, q) ** 2)
 
     def _candidate(self, own_hz: float, q: float | None) -> tuple[FeltComponent, float]:
         """Return a candidate and its shortfall [dB]."""

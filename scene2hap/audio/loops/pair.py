@@ -9,8 +9,7 @@ import numpy as np
 
 from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip, Samples
-from scene2hap.audio.conversion.clips import PRE_ROLL_S, convert_clip
-from scene2hap.audio.conversion.repetition import one_period, with_repetitions
+from scene2hap.audio.conversion.clips import convert_clip, convert_loop
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB, is_noise, most_felt_hz
 from scene2hap.audio.loops.level_period import level_period
@@ -83,7 +82,8 @@ def _looped(clip: AudioClip, converter: TactileConverter, context: ConversionCon
         loop = whole_loop(vibration.samples, clip.sample_rate_hz)
         return loop, loop
     if clip.loop is not None:
-        return _repeated(clip.part(*clip.loop), converter, context)
+        marked = clip.part(*clip.loop)
+        return marked.samples, convert_loop(marked, converter, context)
     from_zero = _without(clip, float(clip.samples[0]))
     if _repeats_whole(from_zero):
         converted = convert_clip(from_zero, converter, context, from_rest=True)
@@ -97,14 +97,6 @@ def _looped(clip: AudioClip, converter: TactileConverter, context: ConversionCon
 
 def _without(clip: AudioClip, offset: float) -> AudioClip:
     return replace(clip, samples=clip.samples - np.float32(offset))
-
-
-def _repeated(loop: AudioClip, converter: TactileConverter, context: ConversionContext) -> tuple[Samples, Samples]:
-    """Return a clip that repeats as it is, and one period of the conversion of its repetition."""
-    rate = loop.sample_rate_hz
-    n_around = round(PRE_ROLL_S * rate)
-    repeated = replace(loop, samples=with_repetitions(loop.samples, n_around), loop=None)
-    return loop.samples, one_period(convert_clip(repeated, converter, context).samples, n_around, rate)
 
 
 def _repeats_whole(clip: AudioClip) -> bool:
