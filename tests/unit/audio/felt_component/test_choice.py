@@ -66,7 +66,7 @@ def test_felt_component_is_not_a_component_14_db_below_the_strongest() -> None:
 @pytest.mark.parametrize(
     "name", ["fridge_hum_kitchen.wav", "oven_hum.wav", "washing_machine_rinse.wav", "computer_fan_hum.wav"]
 )
-def test_anchors_of_recordings_are_within_14_db_of_the_strongest_component(
+def test_felt_components_of_recordings_are_within_14_db_of_the_strongest_component(
     sound: Callable[[str], AudioClip], name: str, actuator: str
 ) -> None:
     """Measured with a plain spectrum of the whole recording; in an earlier version it was up to 21 dB."""
