@@ -41,10 +41,10 @@ from scene2hap import (
     VibrationDescription,
     bake as bake_scene,
 )
-from scene2hap.audio.anchor import anchor_of
-from scene2hap.audio.felt_loop import Plan, felt_loop
+from scene2hap.audio.felt_component import felt_component_of
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.scene_loops import Plan, felt_loop
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.threshold import threshold_db
 
@@ -115,18 +115,20 @@ def take(bundle: HapticBundle, name: str, config: BakeConfig, seed: int) -> Audi
         )
     )[0]
     level_db = sensation_level_db(state.intensity)
-    stays, anchor = (anchor_of(x.samples, x.sample_rate_hz, level_db, config.actuator) for x in (loop.source, clip))
+    stays, component = (
+        felt_component_of(x.samples, x.sample_rate_hz, level_db, config.actuator) for x in (loop.source, clip)
+    )
     assert stays is not None
-    assert anchor is not None
+    assert component is not None
     moved = 1.0  # a fixed filter moves nothing
     if felt.own_hz is not None and felt.target_hz is not None:
         moved = (stays.frequency_hz + felt.target_hz - felt.own_hz) / stays.felt_hz
     context = ConversionContext(
         config.actuator,
         state.intensity,
-        own_hz=anchor.frequency_hz,
-        target_hz=anchor.felt_hz * moved,
-        rough_hz=anchor.rough_hz,
+        own_hz=component.frequency_hz,
+        target_hz=component.felt_hz * moved,
+        rough_hz=component.rough_hz,
     )
     return felt_loop(clip, config.tactile, Plan(context, felt.asked_level_db)).tactile
 

@@ -16,8 +16,9 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from scene2hap.audio.distinctness import LEVEL_JND_DB, frequency_jnds, rhythm_hz
+from scene2hap.audio.analysis import rhythm_hz
 from scene2hap.audio.levels import felt_level_db, felt_spectrum
+from scene2hap.audio.threshold import LEVEL_JND_DB, frequency_jnds
 from scene2hap.errors import AudioError
 from scene2hap.haptics import ActuatorProfile
 

@@ -30,9 +30,9 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 from others import RECORDINGS
 from scene2hap.audio.actuators import actuator_profile, response_db
-from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert_clip
+from scene2hap.audio.felt_component import felt_component_of
 from scene2hap.audio.files import read_clip
 from scene2hap.audio.levels import drive_db, sensation_level_db, threshold_db
 from scene2hap.audio.protocol import ConversionContext
@@ -118,16 +118,16 @@ def line_cell(heard: Signal, felt: Signal, rate: int, actuator: ActuatorProfile)
 def judged(clip: AudioClip, kind: str, actuator: str) -> str:
     """Cell of the table: the measure for this kind of sound."""
     profile, rate = actuator_profile(actuator), clip.sample_rate_hz
-    anchor = anchor_of(clip.samples, rate, sensation_level_db(INTENSITY), profile)
-    assert anchor is not None
+    component = felt_component_of(clip.samples, rate, sensation_level_db(INTENSITY), profile)
+    assert component is not None
     context = ConversionContext(
         profile,
         INTENSITY,
-        own_hz=anchor.frequency_hz,
-        target_hz=anchor.carrier_hz,
-        rough_hz=anchor.rough_hz,
-        band_q=anchor.band_q,
-        band_db=anchor.band_db,
+        own_hz=component.frequency_hz,
+        target_hz=component.carrier_hz,
+        rough_hz=component.rough_hz,
+        band_q=component.band_q,
+        band_db=component.band_db,
     )
     heard = clip.samples.astype(np.float64)
     felt = convert_clip(clip, CONVERTERS.build(kind), context).samples.astype(np.float64)

@@ -29,9 +29,9 @@ from scipy.signal import butter, sosfiltfilt
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 from scene2hap.audio import analysis
-from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert_clip
+from scene2hap.audio.felt_component import felt_component_of
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.loops.seam_search import find_seam
 from scene2hap.audio.protocol import ConversionContext
@@ -112,11 +112,15 @@ def loops(real: dict[str, tuple[Signal, int]], seed: int, draws: int | None) -> 
         clip = AudioClip(x.astype(np.float32), rate)
         heard = clip.samples.astype(float)
         converter = converters[i // len(kinds) % len(converters)]
-        anchor = anchor_of(heard, rate, LEVEL_DB, ActuatorProfile())
+        component = felt_component_of(heard, rate, LEVEL_DB, ActuatorProfile())
         context = ConversionContext(intensity=0.3)
-        if anchor is not None:
-            places = {"own_hz": anchor.frequency_hz, "target_hz": anchor.carrier_hz, "rough_hz": anchor.rough_hz}
-            context = replace(context, **places, band_q=anchor.band_q)
+        if component is not None:
+            places = {
+                "own_hz": component.frequency_hz,
+                "target_hz": component.carrier_hz,
+                "rough_hz": component.rough_hz,
+            }
+            context = replace(context, **places, band_q=component.band_q)
         felt = convert_clip(clip, CONVERTERS.build(converter), context).samples.astype(float)
         begin = time.process_time()
         seam = find_seam(heard, rate, felt)

@@ -18,10 +18,11 @@ from typing import Any
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from scene2hap.audio.clip import Samples
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import settings_misfit
 from scene2hap.common.csv_tables import csv_reader, with_point
 from scene2hap.common.files import read_small_text
@@ -100,7 +101,7 @@ def _point(path: Path, row: list[str]) -> tuple[float, float]:
         ) from cause
 
 
-def response_db(profile: ActuatorProfile, frequencies_hz: ArrayLike) -> NDArray[np.float64]:
+def response_db(profile: ActuatorProfile, frequencies_hz: ArrayLike) -> Floats:
     """Return the response of the actuator, in the shape of `frequencies_hz` [dB]; its maximum is 0."""
     f = np.maximum(np.asarray(frequencies_hz, dtype=np.float64), np.finfo(float).tiny)
     if profile.response_db:
@@ -118,7 +119,7 @@ def is_flat(profile: ActuatorProfile) -> bool:
     return not profile.response_db and (profile.resonance_hz is None or profile.q is None)
 
 
-def inverse_db(profile: ActuatorProfile, frequencies_hz: ArrayLike) -> NDArray[np.float64]:
+def inverse_db(profile: ActuatorProfile, frequencies_hz: ArrayLike) -> Floats:
     """Return the gain that compensates the response, 0..`MAX_BOOST_DB` [dB]; 0 outside the actuator's band."""
     f = np.asarray(frequencies_hz, dtype=np.float64)
     usable = (f >= profile.min_frequency_hz) & (f <= profile.max_frequency_hz)

@@ -1,9 +1,9 @@
-"""Measures of a sound: silent ends, dynamic range, spectral flatness, dominant frequency.
+"""Measures of a sound: silent ends, dynamic range, spectral flatness, dominant frequency, rhythm.
 
 Pure functions of samples (n,) in any scale and their rate. The offset, which is neither heard nor felt, is removed
 first; otherwise it would count as a loud, steady tone. For spectra the mean is removed, for silent ends the median: a
 few strokes in digital silence have a mean, whose removal would turn the silence into a steady level. The dynamic range
-is that of the sound as it is heard (`heard`).
+is that of the sound without infrasound.
 """
 
 from __future__ import annotations
@@ -14,18 +14,18 @@ from collections.abc import Callable
 import numpy as np
 import scipy
 from numpy.lib.stride_tricks import sliding_window_view
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from scene2hap.audio.clip import Samples
+from scene2hap.audio.infrasound import without_infrasound
 from scene2hap.audio.spectra.components import peak_offset
-from scene2hap.audio.spectra.heard import heard
 from scene2hap.audio.spectra.windows import hann
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import AudioError
 
-Signal = NDArray[np.float64]
-Weight = Callable[[Signal], Signal]
+Weight = Callable[[Floats], Floats]
 
 TRIM_DB = 40.0
 """Frames this far below the loudest one are silence at the ends [dB]; assumed, as in most trimming programs."""
@@ -47,6 +47,10 @@ FLATNESS_FLOOR_DB = -60.0
 
 HEARD_RANGE_HZ = (10.0, 20_000.0)
 """Range in which the strongest component of a sound is looked for, including what is only felt."""
+
+RHYTHM_RANGE_HZ = (0.5, 60.0)
+SURE_DEPTH = 0.25
+"""Modulation index of an envelope [-] from which every loop cut from a sound has its rate."""
 
 
 def trim_silence(samples: ArrayLike, sample_rate_hz: float) -> Samples:
@@ -85,7 +89,7 @@ def dynamic_range_db(samples: ArrayLike, sample_rate_hz: float, *, dominant_hz: 
     Raises: AudioError: the samples are empty or all equal.
     """
     x, rate = _sounding(samples, sample_rate_hz)
-    x = heard(x, rate)
+    x = without_infrasound(x, rate)
     is_slow = (dominant_frequency_hz(x, rate) if dominant_hz is None else dominant_hz) < SLOW_HZ
     frames = _frames(x, round((SLOW_LEVEL_FRAME_S if is_slow else LEVEL_FRAME_S) * rate))
     power = np.mean(frames**2, axis=1)
@@ -191,7 +195,22 @@ def peak_frequency_hz(
     return float((k + peak_offset(m[k - 1 : k + 2])) * bin_hz)
 
 
-def _checked(samples: ArrayLike, sample_rate_hz: float) -> tuple[Signal, float]:
+def rhythm_hz(samples: ArrayLike, sample_rate_hz: float, least_depth: float = SURE_DEPTH) -> float | None:
+    """Return the strongest rate in the Hilbert envelope of a sound (n_samples,) [Hz].
+
+    None if its modulation index is below `least_depth` [-].
+    """
+    x = np.asarray(samples, dtype=np.float64)
+    envelope = np.abs(scipy.signal.hilbert(x - x.mean()))
+    rates = np.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
+    inside = (rates >= RHYTHM_RANGE_HZ[0]) & (rates <= RHYTHM_RANGE_HZ[1])
+    depth = 2.0 * np.abs(scipy.fft.rfft(envelope)) / len(x) / envelope.mean()
+    depth[~inside] = 0.0
+    k = int(np.argmax(depth))
+    return float(rates[k]) if depth[k] >= least_depth else None
+
+
+def _checked(samples: ArrayLike, sample_rate_hz: float) -> tuple[Floats, float]:
     """Return the samples as float64 without their mean, and the rate."""
     rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=AudioError)
     x = np.asarray(samples, dtype=np.float64)
@@ -200,14 +219,14 @@ def _checked(samples: ArrayLike, sample_rate_hz: float) -> tuple[Signal, float]:
     return x - x.mean(), rate
 
 
-def _sounding(samples: ArrayLike, sample_rate_hz: float) -> tuple[Signal, float]:
+def _sounding(samples: ArrayLike, sample_rate_hz: float) -> tuple[Floats, float]:
     x, rate = _checked(samples, sample_rate_hz)
     if np.ptp(x) == 0.0:
         raise AudioError(f"all {len(x)} samples are equal; silence has neither level nor spectrum. Drop this sound.")
     return x, rate
 
 
-def _frames(x: Signal, size: int) -> Signal:
+def _frames(x: Floats, size: int) -> Floats:
     """Return frames (n_frames, size) that overlap by half; the whole signal if it is shorter than one."""
     size = min(max(size, 2), len(x))
     return sliding_window_view(x, size)[:: max(1, size // 2)]

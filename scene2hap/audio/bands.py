@@ -11,14 +11,15 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats, Floats32
 from scene2hap.errors import AudioError
 from scene2hap.haptics import Bands
 
 
-def split_bands(loop_samples: ArrayLike, sample_rate_hz: float, bands: Bands) -> NDArray[np.float32]:
+def split_bands(loop_samples: ArrayLike, sample_rate_hz: float, bands: Bands) -> Floats32:
     """Return the part of a loop (n_samples,) in each band, (n_bands, n_samples), without delay between them.
 
     The lowest band extends to 0 Hz and the highest to half the rate, so that the sum is complete. For
@@ -37,7 +38,7 @@ def split_bands(loop_samples: ArrayLike, sample_rate_hz: float, bands: Bands) ->
     return np.stack([np.fft.irfft(spectrum * weight, len(x)).astype(np.float32) for weight in weights])
 
 
-def band_weights(frequencies_hz: ArrayLike, bands: Bands) -> NDArray[np.float64]:
+def band_weights(frequencies_hz: ArrayLike, bands: Bands) -> Floats:
     """Return the share of each band at each frequency, (n_bands, n_frequencies), 0..1 [-]; each column adds up to 1.
 
     Real weights are a zero-phase filter. Bands with gains g_j add up to the loop filtered by sum_j g_j weights[j].

@@ -6,17 +6,17 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from scene2hap.common import checks
-from scene2hap.common.arrays import floats
+from scene2hap.common.arrays import Floats32, floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import AudioError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
 
-Samples = NDArray[np.float32]
+Samples = Floats32
 
 
 @clear_construction

@@ -11,17 +11,17 @@ All levels here depend on the convention of `audio.threshold` that full scale is
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from scene2hap.audio.actuators import response_db
 from scene2hap.audio.analysis import dominant_frequency_hz
 from scene2hap.audio.clip import Samples
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ, threshold_db
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import AudioError
 from scene2hap.haptics import ActuatorProfile
 
@@ -67,48 +67,14 @@ def sensation_level_db(intensity: float) -> float:
     return FULL_LEVEL_DB + LEVEL_PER_DECADE_DB * math.log10(checked)
 
 
-def drive_db(frequencies_hz: ArrayLike, level_db: ArrayLike, actuator: ActuatorProfile) -> NDArray[np.float64]:
+def drive_db(frequencies_hz: ArrayLike, level_db: ArrayLike, actuator: ActuatorProfile) -> Floats:
     """Return the amplitude that a sine needs on an actuator for a sensation level [dB re full scale]."""
     return threshold_db(frequencies_hz) + np.asarray(level_db, dtype=np.float64) - response_db(actuator, frequencies_hz)
 
 
-def nearest_felt_hz(
-    frequencies_hz: NDArray[np.float64],
-    levels_db: NDArray[np.float64],
-    actuator: ActuatorProfile,
-    peak_db: float,
-    accepted_db: float,
-) -> NDArray[np.float64]:
-    """Return the frequency (n,) nearest to each given one at which an actuator plays a sine of some level [Hz].
-
-    There the sine, with an amplitude of at most `peak_db` re full scale, is felt at most `accepted_db` weaker than at
-    the best frequency of the band. Parameters: frequencies_hz (n,), > 0; levels_db (n,) : sensation levels [dB].
-    """
-    grid_hz, over_level_db = _band(actuator)
-    most_db = np.maximum(peak_db, levels_db + over_level_db.min()) + accepted_db
-    inside = (frequencies_hz >= actuator.min_frequency_hz) & (frequencies_hz <= actuator.max_frequency_hz)
-    stays = inside & (drive_db(frequencies_hz, levels_db, actuator) <= most_db)
-    if stays.all():
-        return frequencies_hz
-    octaves = np.abs(np.log2(grid_hz / frequencies_hz[:, None]))
-    octaves[over_level_db + levels_db[:, None] > most_db[:, None]] = np.inf
-    return np.where(stays, frequencies_hz, grid_hz[octaves.argmin(axis=1)])
-
-
-@lru_cache(maxsize=64)
-def _band(actuator: ActuatorProfile) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Frequencies of a band, 24 per octave (n,) [Hz], and the drive of a sine at the threshold (n,) [dB].
-
-    A step is far below the 22 % in frequency that are just noticed.
-    """
-    low_hz, high_hz = actuator.min_frequency_hz, actuator.max_frequency_hz
-    grid_hz: NDArray[np.float64] = np.geomspace(low_hz, high_hz, 2 + math.ceil(24 * math.log2(high_hz / low_hz)))
-    return grid_hz, drive_db(grid_hz, 0.0, actuator)
-
-
 def felt_spectrum(
     samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorProfile | None = None
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Floats, Floats]:
     """Return frequencies (n_bins,) [Hz] and, at each, (a_k / threshold)^2 (n_bins,) [-] of a loop (n_samples,).
 
     No window is applied, since a loop is periodic. The range is 10 to 1000 Hz.
@@ -135,12 +101,12 @@ def most_felt_hz(samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorPr
     return dominant_frequency_hz(samples, sample_rate_hz, weight_db=lambda f: over_threshold_db(f, actuator))
 
 
-def over_threshold_db(f: NDArray[np.float64], actuator: ActuatorProfile | None = None) -> NDArray[np.float64]:
+def over_threshold_db(f: Floats, actuator: ActuatorProfile | None = None) -> Floats:
     """Return the level at which full scale is felt at frequencies (n,) [dB over the threshold of touch]."""
     return (response_db(actuator, f) if actuator else 0.0) - threshold_db(f)
 
 
-def sum_db(felt: NDArray[np.float64]) -> float:
+def sum_db(felt: Floats) -> float:
     """Return the sensation level of components (n,), each as `felt_spectrum` gives it [dB]."""
     total = float(felt.sum())
     return 10.0 * math.log10(total) if total > 0.0 else -math.inf

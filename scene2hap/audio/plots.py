@@ -8,18 +8,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.audio.spectra.windows import hann
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ, threshold_db
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Floats, Floats32
 from scene2hap.common.plots import SOUND, THRESHOLD, TOUCH, add_legend, new_figure, plain, set_title
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
 
-Samples = NDArray[np.float32]
+Samples = Floats32
 
 RANGE_DB = 60.0
 """Dynamic range of colours and spectra below their maximum [dB]; full scale is 45 dB over the threshold of touch."""

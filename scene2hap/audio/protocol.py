@@ -100,7 +100,7 @@ def follows_target(converter: object) -> bool:
     return bool(getattr(converter, "follows_target", False))
 
 
-def follows_anchor(converter: object, context: ConversionContext) -> bool:
+def follows_component(converter: object, context: ConversionContext) -> bool:
     """Return True if the converter makes the vibration of the component that the analysis of the whole sound chose."""
     return context.band_db is not None and follows_target(converter)
 

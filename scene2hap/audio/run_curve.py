@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import AudioError
 from scene2hap.haptics import LONGEST_PASSAGE_S
@@ -65,16 +66,16 @@ class RunCurve:
         was_recorded = before is not None and time_s == before.lasts_s
         return replace(self, inferred_s=before.inferred_s if before is not None and was_recorded else time_s)
 
-    def amplitude_at(self, x: ArrayLike) -> NDArray[np.float64]:
+    def amplitude_at(self, x: ArrayLike) -> Floats:
         """Return the amplitude (n,) [-] at shares x (n,) of the duration, 0..1."""
         return _between(self.amplitude, x)
 
-    def speed_at(self, x: ArrayLike) -> NDArray[np.float64] | None:
+    def speed_at(self, x: ArrayLike) -> Floats | None:
         """Return the speed (n,) [-] at shares x (n,) of the duration, 0..1; None if it is unknown."""
         return _between(self.speed, x) if self.speed else None
 
 
-def _between(points: Sequence[float], x: ArrayLike) -> NDArray[np.float64]:
+def _between(points: Sequence[float], x: ArrayLike) -> Floats:
     return np.asarray(
         np.interp(np.asarray(x, dtype=np.float64), np.linspace(0.0, 1.0, len(points)), points), dtype=np.float64
     )

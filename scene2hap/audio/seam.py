@@ -20,10 +20,11 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from scene2hap.audio.clip import Samples
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import AudioError
 
 FadeLaw = Literal["linear", "equal-power"]
@@ -87,7 +88,7 @@ def apply_seam(samples: ArrayLike, seam: Seam) -> Samples:
     return loop.astype(np.float32)
 
 
-def _tilt_db(ahead: NDArray[np.float64], behind: NDArray[np.float64], quiet: float) -> float:
+def _tilt_db(ahead: Floats, behind: Floats, quiet: float) -> float:
     """Return how much louder the stretch ahead is than the one behind [dB], 0 if the difference is imperceptible.
 
     Parameters: quiet : power that is hardly noticed.
@@ -102,7 +103,7 @@ def _tilt_db(ahead: NDArray[np.float64], behind: NDArray[np.float64], quiet: flo
     return float(np.clip(difference_db, -_MOST_TILTED_DB, _MOST_TILTED_DB)) * (abs(difference_db) > _LEVEL_FREE_DB)
 
 
-def _tilted(x: NDArray[np.float64], seam: Seam) -> NDArray[np.float64]:
+def _tilted(x: Floats, seam: Seam) -> Floats:
     if seam.tilt_db == 0.0:
         return x
     n, mean = seam.n_samples_needed, x.mean()
@@ -110,7 +111,7 @@ def _tilted(x: NDArray[np.float64], seam: Seam) -> NDArray[np.float64]:
     return np.asarray(mean + (x[:n] - mean) * 10.0 ** (seam.tilt_db * along / 20.0))
 
 
-def _weights(seam: Seam) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _weights(seam: Seam) -> tuple[Floats, Floats]:
     rising = np.arange(seam.crossfade) / max(1, seam.crossfade)
     if seam.law == "linear":
         w_in, w_out, made_for = rising, 1.0 - rising, 1.0
@@ -121,13 +122,13 @@ def _weights(seam: Seam) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return w_in / level, w_out / level
 
 
-def _stretches(x: NDArray[np.float64], seam: Seam) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _stretches(x: Floats, seam: Seam) -> tuple[Floats, Floats]:
     """Return the samples that begin the loop, and as many that follow its end."""
     end = seam.start + seam.length
     return x[seam.start : seam.start + seam.crossfade], x[end : end + seam.crossfade]
 
 
-def _signal(samples: ArrayLike, seam: Seam) -> NDArray[np.float64]:
+def _signal(samples: ArrayLike, seam: Seam) -> Floats:
     x = np.asarray(samples, dtype=np.float64)
     if x.ndim != 1 or len(x) < seam.n_samples_needed:
         raise AudioError(

@@ -23,8 +23,8 @@ from importlib.metadata import entry_points
 from typing import Any
 
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.felt_loop import Plan
-from scene2hap.audio.files import sound_digest
+from scene2hap.audio.encoding import sound_digest
+from scene2hap.audio.scene_loops import Plan
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.baking.config import BakeConfig
 from scene2hap.haptics import ActuatorProfile, VibrationDescription

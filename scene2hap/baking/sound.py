@@ -16,12 +16,12 @@ from threading import Lock
 import numpy as np
 
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.felt_loop import Plan, SourceClip, felt_loop, plan_scene
-from scene2hap.audio.files import as_stored, sound_digest
+from scene2hap.audio.encoding import as_stored, sound_digest
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.loops import middle_of, without_silent_ends
 from scene2hap.audio.protocol import NamedSounds, follows_target
 from scene2hap.audio.recorded_runs import recorded_runs
+from scene2hap.audio.scene_loops import Plan, SourceClip, felt_loop, plan_scene
 from scene2hap.audio.select import Choice, explain_choice
 from scene2hap.audio.sources.chain import gather
 from scene2hap.baking.config import BakeConfig

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from scene2hap.audio.files import sound_digest
+from scene2hap.audio.encoding import sound_digest
 from scene2hap.audio.haptic_loop import HapticLoop
 
 LOOPS = {"loop": "tactile", "audible": "audible"}

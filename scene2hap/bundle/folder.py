@@ -29,7 +29,8 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from scene2hap.audio.clip import Credit
-from scene2hap.audio.files import encoded, read_clip
+from scene2hap.audio.encoding import encoded
+from scene2hap.audio.files import read_clip
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle.checking import warn_of_unknown_fields
 from scene2hap.bundle.contents import BundleContents

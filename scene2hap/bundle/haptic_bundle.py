@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, overload
 
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.gain_warning import warn_if_percent
 from scene2hap.audio.loops import MIN_CLIP_S
 from scene2hap.bundle.checking import require_plausible
 from scene2hap.bundle.contents import BundleContents
@@ -23,7 +22,7 @@ from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
 from scene2hap.common.counted import counted
-from scene2hap.common.warning import warn_of
+from scene2hap.common.warning import warn_if_percent, warn_of
 from scene2hap.errors import AudioError, BundleError, CallError, MaterialError, SceneError
 from scene2hap.haptics import is_unknown
 from scene2hap.materials import Material

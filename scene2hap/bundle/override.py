@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.files import as_stored
+from scene2hap.audio.encoding import as_stored
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.clips.reading import as_vibration, read_any_clip
 from scene2hap.common import checks

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hashlib import sha256
 
-from scene2hap.audio.files import sound_digest
+from scene2hap.audio.encoding import sound_digest
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.override import ANY_STATE, Override
 

@@ -16,9 +16,11 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.audio.clip import AudioClip, Credit
-from scene2hap.audio.files import encoded, fits_flac, read_clip, sound_digest
-from scene2hap.audio.haptic_loop import HapticLoop, Sensation
+from scene2hap.audio.encoding import encoded, fits_flac, sound_digest
+from scene2hap.audio.files import read_clip
+from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.run_curve import RunCurve
+from scene2hap.audio.sensation import Sensation
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.files import own_file
 

@@ -17,7 +17,7 @@ from typing import Any
 from scene2hap.audio.actuators import ACTUATORS
 from scene2hap.audio.conversion import FORMATS, Conversion, Failure, convert_files
 from scene2hap.audio.files import READABLE
-from scene2hap.audio.haptic_loop import level_of
+from scene2hap.audio.sensation import level_of
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.cli.console import Console
 from scene2hap.cli.given_spec import given_spec

@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from scene2hap.audio.haptic_loop import HapticLoop, Sensation, level_of
+from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.audio.sensation import Sensation, level_of
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.edited_loops import is_edited
 from scene2hap.bundle.override import NONE, Override

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from scene2hap.audio.distinctness import FREQUENCY_WEBER
+from scene2hap.audio.threshold import FREQUENCY_WEBER
 from scene2hap.clips.haptic_clip import RANGE_HZ, Curve, HapticClip, Transient
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from scene2hap.audio.distinctness import FREQUENCY_WEBER
+from scene2hap.audio.threshold import FREQUENCY_WEBER
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.clips.synthesis import synthesize
 from scene2hap.export.envelope import FLOOR_DB, Signal, amplitude_of, decibels

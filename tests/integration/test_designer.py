@@ -33,8 +33,8 @@ from scene2hap import (
     load_scene,
     rebake,
 )
-from scene2hap.audio.files import encoded
-from scene2hap.audio.haptic_loop import LevelWarning
+from scene2hap.audio.encoding import encoded
+from scene2hap.audio.sensation import LevelWarning
 from scene2hap.baking.config import BakeConfig
 from scene2hap.bundle import BundleWarning
 from scene2hap.cli import main

@@ -18,7 +18,7 @@ from batch_server import answered
 from files_of import files_of
 from llm_server import serving
 from scene2hap import Box, HapticBundle, LLMReply, LLMRequest, Pose, SceneObject, SceneSnapshot, bake
-from scene2hap.audio.files import encoded
+from scene2hap.audio.encoding import encoded
 from scene2hap.bundle.differences import differences
 from scene2hap.cli import main
 from scene2hap.cli.console import Console

@@ -23,7 +23,8 @@ from scene2hap import (
     export_bundle,
     export_clip,
 )
-from scene2hap.audio.files import encoded, read_clip
+from scene2hap.audio.encoding import encoded
+from scene2hap.audio.files import read_clip
 from scene2hap.cli import main
 from scene2hap.clips.haptic_format import read_haptic
 from scene2hap.clips.reading import read_haptic_clip

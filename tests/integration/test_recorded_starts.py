@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from scene2hap import HapticBundle, HapticSession, Touch, bake, rebake
-from scene2hap.audio.files import encoded
+from scene2hap.audio.encoding import encoded
 from scene2hap.audio.recorded_runs import recorded_runs
 from scene2hap.cli import main
 from scenes import box, scene

@@ -8,7 +8,8 @@ from hypothesis import assume, given, settings, strategies as st
 from scene2hap.audio import analysis
 from scene2hap.audio.bands import split_bands
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.files import encoded, read_clip
+from scene2hap.audio.encoding import encoded
+from scene2hap.audio.files import read_clip
 from scene2hap.audio.loops import loop_pair
 from scene2hap.audio.loops.seam_search import find_seam
 from scene2hap.audio.protocol import ConversionContext

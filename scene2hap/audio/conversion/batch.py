@@ -15,7 +15,7 @@ from typing import Any
 from scene2hap.audio.conversion.one_file import Conversion, convert, settled
 from scene2hap.audio.conversion.writing import FORMATS
 from scene2hap.audio.files import READABLE, SUFFIXES
-from scene2hap.audio.haptic_loop import LevelWarning
+from scene2hap.audio.sensation import LevelWarning
 from scene2hap.audio.tactile import DEFAULT_CONVERTER
 from scene2hap.common.counted import first_of
 from scene2hap.common.files import drafts_of

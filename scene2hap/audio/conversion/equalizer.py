@@ -6,11 +6,10 @@ from functools import lru_cache
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from scene2hap.audio.actuators import inverse_db
 from scene2hap.audio.conversion.meter import Block
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Complex, Floats
 from scene2hap.haptics import ActuatorProfile
 
 _LENGTH_S = 0.25
@@ -60,7 +59,7 @@ class Equalizer:
 
 
 @lru_cache(maxsize=2)
-def _spectrum(actuator: ActuatorProfile, sample_rate_hz: int, n: int, size: int) -> NDArray[np.complex128]:
+def _spectrum(actuator: ActuatorProfile, sample_rate_hz: int, n: int, size: int) -> Complex:
     return np.asarray(scipy.fft.rfft(_minimum_phase(actuator, sample_rate_hz, n), size))
 
 

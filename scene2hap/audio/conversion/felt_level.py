@@ -7,11 +7,11 @@ from functools import lru_cache
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from scene2hap.audio.actuators import response_db
 from scene2hap.audio.conversion.meter import AT_ONCE, Block
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ, threshold_db
+from scene2hap.common.arrays import Floats, Floats32
 from scene2hap.haptics import ActuatorProfile
 
 _SEGMENT_S, _OVERLAP = 1.0, 0.1
@@ -36,7 +36,7 @@ class FeltLevel:
         self._inside, self._weight = _weights(size, sample_rate_hz, actuator)
         self._energy = np.zeros(channels)
 
-    def hear(self, block: Block) -> None:
+    def add(self, block: Block) -> None:
         """Add the next frames to the measurement."""
         if not len(block):
             return
@@ -50,26 +50,26 @@ class FeltLevel:
             if self._filled == size:
                 self._full.append(self._segment.copy())
                 if len(self._full) * len(self._segment) >= AT_ONCE:
-                    self._hear_full()
+                    self._add_full()
                 self._segment[:, : self._overlap] = self._segment[:, -self._overlap :]
                 self._filled = self._overlap
 
     def level_db(self) -> float:
         """Return the sensation level of the strongest channel [dB], minus infinity for silence."""
-        self._hear_full()
+        self._add_full()
         rest = self._segment.copy()
         rest[:, self._filled :] = 0.0
         after = np.zeros_like(rest)
         after[:, : self._overlap] = rest[:, -self._overlap :]
-        energy = self._energy + self._heard([rest, after])
+        energy = self._energy + self._energy_of([rest, after])
         most = float(energy.max()) / max(self._n_frames, 1)
         return 10.0 * math.log10(most) if most > 0.0 else -math.inf
 
-    def _hear_full(self) -> None:
-        self._energy += self._heard(self._full)
+    def _add_full(self) -> None:
+        self._energy += self._energy_of(self._full)
         self._full = []
 
-    def _heard(self, pieces: list[Block]) -> NDArray[np.float64] | float:
+    def _energy_of(self, pieces: list[Block]) -> Floats | float:
         """Return, for each channel of pieces (channels, n), the squared ratios of its components' amplitudes to their
         thresholds, summed over components and pieces and multiplied by time [samples]."""
         if not pieces:
@@ -83,13 +83,13 @@ class FeltLevel:
 
 
 @lru_cache(maxsize=2)
-def _window(size: int, overlap: int) -> NDArray[np.float32]:
+def _window(size: int, overlap: int) -> Floats32:
     slope = np.sin(0.5 * np.pi * (np.arange(overlap) + 0.5) / overlap)
     return np.concatenate([slope, np.ones(size - 2 * overlap), slope[::-1]]).astype(np.float32)
 
 
 @lru_cache(maxsize=2)
-def _weights(size: int, sample_rate_hz: int, actuator: ActuatorProfile) -> tuple[slice, NDArray[np.float64]]:
+def _weights(size: int, sample_rate_hz: int, actuator: ActuatorProfile) -> tuple[slice, Floats]:
     """Return the bins that can be felt, and the squared ratio of amplitude to threshold at each."""
     f = np.fft.rfftfreq(size, 1.0 / sample_rate_hz)
     inside = slice(np.searchsorted(f, TACTILE_RANGE_HZ[0]), np.searchsorted(f, TACTILE_RANGE_HZ[1], side="right"))

@@ -9,11 +9,11 @@ from typing import IO
 import numpy as np
 
 from scene2hap.audio.actuators import is_flat
+from scene2hap.audio.conversion.clips import one_period
 from scene2hap.audio.conversion.equalizer import Equalizer
 from scene2hap.audio.conversion.felt_level import FeltLevel
 from scene2hap.audio.conversion.meter import Block
 from scene2hap.audio.conversion.reading import BLOCK_FRAMES, SoundReader
-from scene2hap.audio.conversion.repetition import one_period
 from scene2hap.audio.levels import NOTHING_DB, TACTILE_HEADROOM_DB, is_noise, sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.haptics import ActuatorProfile
@@ -37,7 +37,7 @@ def levelled(
         blocks = _equalized(blocks, sound, context.actuator)
     ended = _looped(blocks, sound) if sound.n_around else _faded_out(blocks, max(1, round(_END_S * sound.rate)))
     for block in ended:
-        felt.hear(block)
+        felt.add(block)
         held.write(np.ascontiguousarray(block).data)
     now_db = felt.level_db()
     if now_db <= NOTHING_DB or is_noise(sound.meter.peak * sound.gain, felt.peak, is_chosen=is_chosen):

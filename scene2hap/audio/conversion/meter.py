@@ -6,15 +6,15 @@ from functools import lru_cache
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from scene2hap.audio import analysis
 from scene2hap.audio.levels import over_threshold_db
 from scene2hap.audio.spectra.windows import hann
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ
+from scene2hap.common.arrays import Floats32
 from scene2hap.haptics import ActuatorProfile
 
-Block = NDArray[np.float32]
+Block = Floats32
 """Samples (n, channels)."""
 
 SEGMENT_S = 2.5
@@ -35,7 +35,7 @@ class Meter:
         self.peak: float = 0.0
         self.n_frames: int = 0
         self.n_expected: int = max(1, n_frames)
-        self.envelope: NDArray[np.float32] = np.zeros(n_columns, dtype=np.float32)
+        self.envelope: Floats32 = np.zeros(n_columns, dtype=np.float32)
         self._rate = sample_rate_hz
         size = scipy.fft.next_fast_len(round(SEGMENT_S * sample_rate_hz) or 2, real=True)
         n_segments = int(np.clip(self.n_expected // size, 1, MOST_SEGMENTS))
@@ -43,11 +43,11 @@ class Meter:
         self._segment = np.zeros((channels, size), dtype=np.float32)
         self._window = _window(size)
         self._filled = 0
-        self._full: list[NDArray[np.float32]] = []
+        self._full: list[Floats32] = []
         self._power = np.zeros(size // 2 + 1)
         self._is_measured = False
 
-    def hear(self, block: Block) -> None:
+    def add(self, block: Block) -> None:
         """Measure the next frames. A sample that is not finite makes the peak not finite."""
         if len(block) == 0:
             return
@@ -120,5 +120,5 @@ class Meter:
 
 
 @lru_cache(maxsize=2)
-def _window(size: int) -> NDArray[np.float32]:
+def _window(size: int) -> Floats32:
     return hann(size).astype(np.float32)

@@ -1,7 +1,7 @@
 """Conversion of one sound file, block by block, so that memory does not grow with its length.
 
 The converter gets the sound without its offset. Its output is equalized for the actuator and scaled to the level of the
-source, as the loops of a scene are (`felt_loop`). The level is known at the end only, so the vibration is stored in a
+source, as the loops of a scene are (`scene_loops`). The level is known at the end only, so the vibration is stored in a
 temporary file until then.
 """
 
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -17,27 +17,27 @@ from tempfile import TemporaryFile
 import numpy as np
 
 from scene2hap.audio.actuators import actuator_profile
-from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.clip import Samples
 from scene2hap.audio.conversion.kept_memory import keep_freed_memory
 from scene2hap.audio.conversion.levelling import levelled
 from scene2hap.audio.conversion.meter import Block, Meter
 from scene2hap.audio.conversion.reading import SoundReader
 from scene2hap.audio.conversion.writing import FORMATS, check_target, opened_for_writing, write_blocks
+from scene2hap.audio.felt_component import felt_component_of
 from scene2hap.audio.files import Mixdown, opened_sound, written_whole
-from scene2hap.audio.haptic_loop import LevelWarning, Sensation, level_doubt
 from scene2hap.audio.levels import FAINTEST_PEAK_DB, FULL_LEVEL_DB, sensation_level_db
 from scene2hap.audio.loop_marks import is_marked_whole, with_loop
 from scene2hap.audio.protocol import (
     ConversionContext,
     TactileConverter,
     TactileStream,
-    follows_anchor,
+    follows_component,
     follows_target,
     one_channel,
     opened_stream,
     require_in_step,
 )
+from scene2hap.audio.sensation import LevelWarning, Sensation, level_doubt
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.common import checks
 from scene2hap.common.blas_threads import one_blas_thread
@@ -133,66 +133,59 @@ def convert(
     """
     begin = time.perf_counter()
     keep_freed_memory()
-    source, output = Path(source), Path(output)
+    source, output, drawn = Path(source), Path(output), None if picture is None else Path(picture)
     built, context = settled(converter, actuator, intensity)
     if raw and loop:
         raise ConfigError("raw=True applies the converter alone, so that no loop is closed; leave out raw or loop.")
-    drawn = Path(picture) if picture is not None else None
     check_target(source, output, FORMATS, overwrite=overwrite)
     if drawn is not None:
         check_target(source, drawn, [".png"], overwrite=overwrite)
-    n_columns = _PICTURE_COLUMNS if drawn else 0
+    n_columns = 0 if drawn is None else _PICTURE_COLUMNS
+    level_db, asked_db = None, None if raw else sensation_level_db(context.intensity)
     with opened_sound(source) as file, written_whole(output) as beside:
         is_loop = not raw and (is_marked_whole(source, file.frames, file.samplerate) if loop is None else loop)
         sound = SoundReader(source, file, mono=mono, n_columns=n_columns, is_loop=is_loop)
         if not raw and follows_target(built):
             context = _with_own_frequency(sound, context)
-        try:
-            streams = [opened_stream(built, sound.rate, context) for _ in range(sound.channels)]
-        except ConfigError as cause:  # a sample rate that no converter takes
-            raise ConfigError(f"{source}: {cause}") from cause
+        streams = _opened_streams(source, built, sound, context)
         before = sound.meter
         after = Meter(sound.rate, sound.channels, n_frames=before.n_expected, n_columns=n_columns)
         blocks = _converted(sound.blocks() if raw else sound.blocks_to_convert(), built, streams)
-        level_db, asked_db = None, None if raw else sensation_level_db(context.intensity)
         with (
             opened_for_writing(output, beside, sound.rate, sound.channels, before.n_expected) as target,
-            ExitStack() as held,
+            nullcontext() if raw else TemporaryFile(dir=output.parent) as held,
         ):
-            if not raw:
-                temporary = held.enter_context(TemporaryFile(dir=output.parent))
-                is_chosen = follows_anchor(built, context)
-                blocks, level_db = levelled(blocks, sound, context, temporary, is_chosen=is_chosen)
+            if held is not None:
+                is_chosen = follows_component(built, context)
+                blocks, level_db = levelled(blocks, sound, context, held, is_chosen=is_chosen)
             n_clipped = write_blocks(target, blocks, after, output, beside)
         if is_loop and target.format == "WAV":
             beside.write_bytes(with_loop(beside.read_bytes(), 0, after.n_frames, sound.rate))
         if drawn is not None:
             from scene2hap.audio.conversion.picture import draw_conversion
 
+            title = f"{source.name} through {type(built).__name__}"
+            felt = None if level_db is None or asked_db is None else Sensation.of(level_db, asked_db, built, context)
+            if felt is not None and (most_hz := after.most_felt_hz(context.actuator)) is not None:
+                felt = felt.felt_at(most_hz)
             with written_whole(drawn) as picture_beside:
-                title = f"{source.name} through {type(built).__name__}"
-                sensation = None
-                if level_db is not None and asked_db is not None:
-                    sensation = Sensation.of(level_db, asked_db, built, context)
-                    if (most_hz := after.most_felt_hz(context.actuator)) is not None:
-                        sensation = sensation.felt_at(most_hz)
-                draw_conversion(title, source, beside, (before, after), context.actuator, picture_beside, sensation)
+                draw_conversion(title, source, beside, (before, after), context.actuator, picture_beside, felt)
     made = Conversion(
-        source,
-        output,
-        before.n_frames / sound.rate,
-        sound.rate,
-        sound.channels,
-        before.peak,
-        after.peak,
-        n_clipped + sum(getattr(stream, "n_clipped", 0) for stream in streams),
-        before.dominant_frequency_hz(),
-        after.most_felt_hz(context.actuator),
-        time.perf_counter() - begin,
-        drawn,
-        level_db,
-        asked_db,
-        is_loop,
+        source=source,
+        output=output,
+        duration_s=before.n_frames / sound.rate,
+        sample_rate_hz=sound.rate,
+        channels=sound.channels,
+        peak_in=before.peak,
+        peak_out=after.peak,
+        n_clipped=n_clipped + sum(getattr(stream, "n_clipped", 0) for stream in streams),
+        frequency_in_hz=before.dominant_frequency_hz(),
+        frequency_out_hz=after.most_felt_hz(context.actuator),
+        elapsed_s=time.perf_counter() - begin,
+        picture=drawn,
+        level_db=level_db,
+        asked_level_db=asked_db,
+        is_loop=is_loop,
     )
     if made.level_doubt:
         warn_of(made.level_doubt, LevelWarning)
@@ -217,8 +210,18 @@ def _with_own_frequency(sound: SoundReader, context: ConversionContext) -> Conve
         heard = channels[:, strongest].astype(np.float64)
     if len(heard) < 2 or not np.isfinite(heard).all():  # the conversion raises an error for this
         return context
-    anchor = anchor_of(heard, sound.rate, sensation_level_db(context.intensity), context.actuator)
-    return context if anchor is None else anchor.within(context, anchor.carrier_hz)
+    component = felt_component_of(heard, sound.rate, sensation_level_db(context.intensity), context.actuator)
+    return context if component is None else component.added_to(context, component.carrier_hz)
+
+
+def _opened_streams(
+    source: Path, converter: TactileConverter, sound: SoundReader, context: ConversionContext
+) -> list[TactileStream]:
+    """Return a stream for each channel. Raises: ConfigError: no converter takes the sample rate."""
+    try:
+        return [opened_stream(converter, sound.rate, context) for _ in range(sound.channels)]
+    except ConfigError as cause:
+        raise ConfigError(f"{source}: {cause}") from cause
 
 
 def _converted(

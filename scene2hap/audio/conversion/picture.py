@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 import soundfile
-from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from scene2hap.audio.conversion.meter import Meter
 from scene2hap.audio.files import opened_sound
-from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.audio.levels import drive_db
+from scene2hap.audio.sensation import Sensation
 from scene2hap.audio.spectra.windows import hann
+from scene2hap.common.arrays import Floats, Floats32
 from scene2hap.haptics import ActuatorProfile
 
 Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
@@ -76,7 +76,7 @@ def draw_conversion(
     image.save(path, format="PNG")
 
 
-def _spectrogram(path: Path, n_frames: int) -> tuple[NDArray[np.float64], int]:
+def _spectrogram(path: Path, n_frames: int) -> tuple[Floats, int]:
     """Return the power of the channels' mean (SPECTROGRAM, WIDTH) and the rate; rows fall logarithmically."""
     with opened_sound(path) as file:
         rate = int(file.samplerate)
@@ -90,7 +90,7 @@ def _spectrogram(path: Path, n_frames: int) -> tuple[NDArray[np.float64], int]:
     return powers, rate
 
 
-def _windows(file: soundfile.SoundFile, n_frames: int, size: int) -> Iterator[NDArray[np.float32]]:
+def _windows(file: soundfile.SoundFile, n_frames: int, size: int) -> Iterator[Floats32]:
     """Yield `WIDTH` windows (size,), evenly spaced, silent beyond both ends; in order: compressed files seek badly."""
     starts = (np.linspace(0, n_frames - 1, WIDTH).astype(int) - size // 2).tolist()
     kept, origin = np.zeros(size, dtype=np.float32), -size
@@ -104,7 +104,7 @@ def _windows(file: soundfile.SoundFile, n_frames: int, size: int) -> Iterator[ND
         kept, origin = kept[unused:], origin + unused
 
 
-def _coloured(powers: NDArray[np.float64], loudest: float) -> Image.Image:
+def _coloured(powers: Floats, loudest: float) -> Image.Image:
     level_db = 10 * np.log10(np.maximum(powers / loudest if loudest > 0 else powers, 10 ** (-DEPTH_DB / 10)))
     place = (level_db / DEPTH_DB + 1.0) * (len(_STOPS) - 1)
     rgb = np.stack([np.interp(place, np.arange(len(_STOPS)), channel) for channel in _STOPS.T], axis=-1)

@@ -9,14 +9,13 @@ from pathlib import Path
 
 import numpy as np
 import soundfile
-from numpy.typing import NDArray
 
-from scene2hap.audio.conversion.clips import PRE_ROLL_S
+from scene2hap.audio.conversion.clips import PRE_ROLL_S, with_repetitions
 from scene2hap.audio.conversion.meter import Block, Meter
-from scene2hap.audio.conversion.repetition import with_repetitions
 from scene2hap.audio.files import MAX_SAMPLE, Mixdown, opened_sound, require_finite
 from scene2hap.audio.loop_marks import LONGEST_MARK_S, SHORTEST_MARK_S
 from scene2hap.audio.tactile.sections import through_sections
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import AudioError
 
 BLOCK_FRAMES = 65_536
@@ -78,7 +77,7 @@ class SoundReader:
         for part in self._parts(BLOCK_FRAMES):
             with np.errstate(over="ignore"):  # of samples that are refused below
                 block = self._mixed(part)
-                self.meter.hear(block)
+                self.meter.add(block)
             if not self.meter.peak <= MAX_SAMPLE:
                 require_finite(self._source, block, n_read)
             n_read += len(block)
@@ -120,7 +119,7 @@ class SoundReader:
                 peak = max(peak, float(np.abs(self._mixed(part)).max()))
         return peak if peak <= MAX_SAMPLE else 0.0
 
-    def _first_offsets(self) -> NDArray[np.float64]:
+    def _first_offsets(self) -> Floats:
         """Return the offset of each channel at the beginning of the file.
 
         The mean of the first 50 ms counts where it is nearer to 0 than that of the first second, by more than the
@@ -134,7 +133,7 @@ class SoundReader:
         beginning = channels[:, : round(_BEGINNING_S * self.rate)]
         offsets, own = channels.mean(axis=1), beginning.mean(axis=1)
         is_faded = np.abs(offsets) - np.abs(own) > beginning.std(axis=1)
-        first: NDArray[np.float64] = np.where(is_faded, own, offsets)
+        first: Floats = np.where(is_faded, own, offsets)
         return first
 
     @cached_property

@@ -68,7 +68,7 @@ def write_blocks(target: soundfile.SoundFile, blocks: Iterator[Block], meter: Me
     """
     n_clipped = 0
     for block in blocks:
-        meter.hear(block)
+        meter.add(block)
         if meter.peak > 1.0:
             n_clipped += int(np.count_nonzero(np.abs(block) > 1.0))
         with _writing(output):
@@ -81,7 +81,7 @@ def write_blocks(target: soundfile.SoundFile, blocks: Iterator[Block], meter: Me
 
 
 def _steps(block: Block, *, is_beyond: bool) -> NDArray[np.int32]:
-    """Return 24-bit integers in the upper bits of int32, on the scale of `files.encoded`; clipped if `is_beyond`."""
+    """Return 24-bit integers in the upper bits of int32, on the scale of `encoding.encoded`; clipped if `is_beyond`."""
     scaled = block * np.float32(_FULL_SCALE)
     np.rint(scaled, out=scaled)
     if is_beyond:

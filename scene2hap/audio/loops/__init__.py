@@ -10,8 +10,8 @@ similar. `seam_search` finds s and L with the greatest similarity, which for a t
 cycles. `seam` fades them at constant power. `pair` cuts the audible and the tactile loop at the same place.
 """
 
-from scene2hap.audio.loops.pair import loop_pair, middle_of
+from scene2hap.audio.loops.clip_part import LoopWarning, middle_of, without_silent_ends
+from scene2hap.audio.loops.pair import loop_pair
 from scene2hap.audio.loops.seam_search import MIN_CLIP_S
-from scene2hap.audio.loops.whole import without_silent_ends
 
-__all__ = ["MIN_CLIP_S", "loop_pair", "middle_of", "without_silent_ends"]
+__all__ = ["MIN_CLIP_S", "LoopWarning", "loop_pair", "middle_of", "without_silent_ends"]

@@ -9,21 +9,13 @@ import numpy as np
 
 from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip, Samples
-from scene2hap.audio.conversion.clips import PRE_ROLL_S, convert_clip
-from scene2hap.audio.conversion.repetition import one_period, with_repetitions
+from scene2hap.audio.conversion.clips import convert_clip, convert_loop
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB, is_noise, most_felt_hz
-from scene2hap.audio.loops.marked import marked_part
-from scene2hap.audio.loops.seam_search import (
-    CROSSFADE_S,
-    LEAST_POWER,
-    MAX_LOOP_S,
-    MIN_CLIP_S,
-    find_seam,
-    level_period,
-)
+from scene2hap.audio.loops.level_period import level_period
+from scene2hap.audio.loops.seam_search import MAX_LOOP_S, MIN_CLIP_S, find_seam
 from scene2hap.audio.loops.whole import is_between_silences, meets_itself, whole_loop
-from scene2hap.audio.protocol import ConversionContext, TactileConverter, follows_anchor
+from scene2hap.audio.protocol import ConversionContext, TactileConverter, follows_component
 from scene2hap.audio.seam import apply_seam
 from scene2hap.common import checks
 from scene2hap.errors import AudioError
@@ -31,45 +23,7 @@ from scene2hap.errors import AudioError
 AUDIBLE_PEAK_DBFS = -1.0
 """Peak of every audible loop [dB re 1]; the usual margin for players that resample."""
 
-_RUN_UP_S = 2.0
-"""Run-up of converters [s] (assumed: their transients decay to imperceptibility within a tenth of this)."""
-
 AUDIBLE_RANGE_HZ = (20.0, 20_000.0)
-_LEVEL_STEP_S = 0.1
-"""Resolution with which pauses are found [s]."""
-
-
-def middle_of(clip: AudioClip) -> AudioClip:
-    """Return the middle of a clip, long enough for the longest loop and a run-up for converters on either side.
-
-    The seam search uses only this part, so the rest of the clip would never be heard. If the middle is a pause, the
-    nearest part with enough sound is taken. Of a clip with a marked loop, this loop is returned.
-    Warns: LoopWarning: the marked loop jumps where it repeats.
-    """
-    if clip.loop is not None:
-        return marked_part(clip, clip.loop)
-    rate = clip.sample_rate_hz
-    n = round((MAX_LOOP_S + CROSSFADE_S + 2.0 * _RUN_UP_S) * rate)
-    if len(clip.samples) <= n:
-        return clip
-    first = _first_of_middle(clip.samples, n, round(_RUN_UP_S * rate), max(1, round(_LEVEL_STEP_S * rate)))
-    return clip.part(first, first + n)
-
-
-def _first_of_middle(x: Samples, n: int, run_up: int, step: int) -> int:
-    """Return the first of n samples around the middle of a sound, or around the nearest place that is no pause.
-
-    Parameters: run_up : number of samples at either end of the n in which no loop lies; step : resolution [samples].
-    """
-    middle = (len(x) - n) // 2
-    rows = x[: len(x) // step * step].reshape(-1, step)
-    energies = np.einsum("ij,ij->i", rows, rows, dtype=np.float64) - step * float(x.mean(dtype=np.float64)) ** 2
-    sums = np.concatenate([[0.0], np.cumsum(energies)])
-    firsts = np.append(np.arange(0, len(x) - n + 1, step), middle)
-    inside = (sums[(firsts + n - run_up) // step] - sums[(firsts + run_up) // step]) / (n - 2 * run_up)
-    needed = min(LEAST_POWER * float(sums[-1]) / len(x), float(inside.max()))
-    places = firsts[inside >= needed]
-    return int(places[np.argmin(np.abs(places - middle))])
 
 
 def loop_pair(
@@ -109,7 +63,7 @@ def loop_pair(
         if not loop.any():
             raise AudioError(f"{clip.credit.title!r}: the {name} is silent. Choose another sound or converter.")
     felt = tactile
-    if not is_noise(peak, float(np.abs(tactile).max()), is_chosen=follows_anchor(converter, context)):
+    if not is_noise(peak, float(np.abs(tactile).max()), is_chosen=follows_component(converter, context)):
         felt = _with_peak(tactile, intensity * 10 ** (-TACTILE_HEADROOM_DB / 20))
         felt = felt if finish is None else finish(felt)
     # `is_vibration` decides how a clip is looped; a bundle does not store it for loops.
@@ -128,7 +82,8 @@ def _looped(clip: AudioClip, converter: TactileConverter, context: ConversionCon
         loop = whole_loop(vibration.samples, clip.sample_rate_hz)
         return loop, loop
     if clip.loop is not None:
-        return _repeated(clip.part(*clip.loop), converter, context)
+        marked = clip.part(*clip.loop)
+        return marked.samples, convert_loop(marked, converter, context)
     from_zero = _without(clip, float(clip.samples[0]))
     if _repeats_whole(from_zero):
         converted = convert_clip(from_zero, converter, context, from_rest=True)
@@ -142,14 +97,6 @@ def _looped(clip: AudioClip, converter: TactileConverter, context: ConversionCon
 
 def _without(clip: AudioClip, offset: float) -> AudioClip:
     return replace(clip, samples=clip.samples - np.float32(offset))
-
-
-def _repeated(loop: AudioClip, converter: TactileConverter, context: ConversionContext) -> tuple[Samples, Samples]:
-    """Return a clip that repeats as it is, and one period of the conversion of its repetition."""
-    rate = loop.sample_rate_hz
-    n_around = round(PRE_ROLL_S * rate)
-    repeated = replace(loop, samples=with_repetitions(loop.samples, n_around), loop=None)
-    return loop.samples, one_period(convert_clip(repeated, converter, context).samples, n_around, rate)
 
 
 def _repeats_whole(clip: AudioClip) -> bool:

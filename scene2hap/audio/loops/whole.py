@@ -1,13 +1,10 @@
-"""Loops of whole clips: a hand-made clip, closed at the end of its last cycle, and a sound between silences; and the
-silence that is no part of a loop."""
+"""Loops of whole clips: a hand-made clip, closed at the end of its last cycle, and a sound between silences."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from scene2hap.audio.analysis import dynamic_range_db, sounding_span
-from scene2hap.audio.clip import AudioClip, Samples
-from scene2hap.audio.select import MIN_DURATION_S
+from scene2hap.audio.clip import Samples
 
 _LAST_CYCLE_S = 0.025
 """Stretch at the end in which the last cycle may end [s] (assumed: the loss of one cycle at 40 Hz is not felt)."""
@@ -16,23 +13,6 @@ _AT_REST = 1e-3
 """Share of the peak below which the end of a clip counts as at rest [-]."""
 _SILENCE_S = 0.2
 """Least silence at the end of a sound that repeats as a whole [s]: the length of the fade of a seam."""
-_PAUSES_DB = 10.0
-"""Dynamic range above which a sound has pauses [dB] (assumed: recorded hums, fans, engines and water have 1.5 to 7,
-bells, ticks and speech 14 and more)."""
-
-
-def without_silent_ends(clip: AudioClip) -> AudioClip:
-    """Return a clip without its silent ends if what is left lasts more than `MIN_DURATION_S` and has no pauses.
-
-    Otherwise the clip is returned: the silence is the pause of a knock, a beep or a rhythm. So is a clip with a loop
-    that a person marked.
-    """
-    rate = clip.sample_rate_hz
-    first, end = sounding_span(clip.samples, rate)
-    is_whole = end - first == len(clip.samples)
-    if is_whole or clip.loop is not None or end - first <= MIN_DURATION_S * rate:
-        return clip
-    return clip if dynamic_range_db(clip.samples[first:end], rate) > _PAUSES_DB else clip.part(first, end)
 
 
 def whole_loop(samples: Samples, sample_rate_hz: float) -> Samples:

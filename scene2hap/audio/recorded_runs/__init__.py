@@ -15,7 +15,6 @@ from scene2hap.audio.recorded_runs.level_rise import (
     BIN_S,
     MIN_STEADY_S,
     Rise,
-    Signal,
     Steady,
     felt_power,
     find_rise,
@@ -24,6 +23,7 @@ from scene2hap.audio.recorded_runs.level_rise import (
 from scene2hap.audio.recorded_runs.speed_track import track_speed
 from scene2hap.audio.run_curve import RunCurve
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import AudioError
 
 
@@ -71,7 +71,7 @@ def recorded_runs(samples: ArrayLike, sample_rate_hz: float, loop: tuple[int, in
     )
 
 
-def _rise(x: Signal, rate: float, power: Signal, steady: Steady) -> Rise | None:
+def _rise(x: Floats, rate: float, power: Floats, steady: Steady) -> Rise | None:
     rise = find_rise(power, steady)
     if rise is None:
         return None

@@ -17,13 +17,11 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from scene2hap.audio.recorded_runs.speed_track import SpeedTrack
 from scene2hap.audio.spectra.windows import hann
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ
-
-Signal = NDArray[np.float64]
+from scene2hap.common.arrays import Floats
 
 BIN_S = 0.010
 LEAST_RISE_DB = 12.0
@@ -74,11 +72,11 @@ class Rise(NamedTuple):
 
     begin_s: float
     end_s: float
-    amplitude: Signal
-    speed: Signal | None = None
+    amplitude: Floats
+    speed: Floats | None = None
 
 
-def felt_power(samples: Signal, sample_rate_hz: float) -> Signal:
+def felt_power(samples: Floats, sample_rate_hz: float) -> Floats:
     """Return the power (n_bins,) [-] of a recording (n,) in the felt band, in whole bins of `BIN_S`; empty if it is too
     short, or its sample rate too low."""
     size, high = round(BIN_S * sample_rate_hz), min(TACTILE_RANGE_HZ[1], 0.45 * sample_rate_hz)
@@ -90,7 +88,7 @@ def felt_power(samples: Signal, sample_rate_hz: float) -> Signal:
     return np.asarray((felt[: n_bins * size].reshape(n_bins, size) ** 2).mean(axis=1))
 
 
-def steady_part(power: Signal) -> Steady | None:
+def steady_part(power: Floats) -> Steady | None:
     """Return steady running, from the first to the last bin near the usual level; None if it is short or not steady."""
     if not power.size or power.max() <= 0.0:
         return None
@@ -105,7 +103,7 @@ def steady_part(power: Signal) -> Steady | None:
     return Steady(first, end, float(np.median(_smoothed(power, _SHORT)[first:end])))
 
 
-def find_rise(power: Signal, steady: Steady, track: SpeedTrack | None = None) -> Rise | None:
+def find_rise(power: Floats, steady: Steady, track: SpeedTrack | None = None) -> Rise | None:
     """Return the rise at the beginning of a recording with this power (n_bins,), None if there is none.
 
     Parameters: track : the tracked speed, which shows the beginning where the room's noise hides the level.
@@ -142,14 +140,14 @@ class _Fit:
     """Least-squares fit of a rise: begin and length [bins], levels of steady running and of the room [dB], exponents of
     the amplitude, and of the speed if it was tracked."""
 
-    def __init__(self, relative: Signal, track: SpeedTrack | None) -> None:
+    def __init__(self, relative: Floats, track: SpeedTrack | None) -> None:
         self._n = len(relative)
         self._at, self._edge = np.arange(self._n, dtype=np.float64), np.convolve(np.ones(self._n), _WINDOW, "same")
         self._level_db = _db(np.convolve(relative, _WINDOW, "same") / self._edge + _FLOOR)
         self._speed_at = np.zeros(0) if track is None else track.at_s / BIN_S - 0.5
         self._speed = np.zeros(0) if track is None else track.speed
 
-    def best(self, quiet: int, steady: int, noise: float) -> Signal:
+    def best(self, quiet: int, steady: int, noise: float) -> Floats:
         """Return the best of several fits, whose searches begin at different shapes."""
         length, noise_db, n_pairs = max(2.0, 1.2 * (steady - quiet)), float(_db(noise)), 1 + bool(self._speed.size)
         low = [-_BEFORE * self._n, 2.0, -3.0, noise_db - 10.0, *_LEAST_EXPONENTS * n_pairs]
@@ -166,21 +164,21 @@ class _Fit:
         ]
         return np.asarray(min(fits, key=lambda one: one.cost).x)
 
-    def residual_db(self, found: Signal) -> Signal:
+    def residual_db(self, found: Floats) -> Floats:
         """Return measured minus fitted level (n_bins,) [dB]."""
         t0, length, lift, noise_db, p, q = found[:6]
         a = _rising((self._at - t0) / length, p, q)
         power = np.convolve(10 ** (lift / 10) * a**2 + 10 ** (noise_db / 10), _WINDOW, "same") / self._edge
         return np.asarray(self._level_db - _db(power + _FLOOR))
 
-    def speed(self, found: Signal, x: Signal) -> Signal:
+    def speed(self, found: Floats, x: Floats) -> Floats:
         """Return the speed [-] at shares x (n,) of the rise: as tracked, and before the track as fitted."""
         t0, length = found[:2]
         fitted = _rising(x, *found[6:8])
         off = self._speed - _rising((self._speed_at - t0) / length, *found[6:8])
         return _pinned(fitted + np.interp(t0 + x * length, self._speed_at, off, left=0.0, right=0.0))
 
-    def _residuals(self, found: Signal) -> Signal:
+    def _residuals(self, found: Floats) -> Floats:
         level_db = self.residual_db(found)
         if not self._speed.size:
             return level_db
@@ -188,22 +186,22 @@ class _Fit:
         return np.concatenate([level_db, off / _SPEED_ERROR])
 
 
-def _rising(x: Signal, p: float, q: float) -> Signal:
+def _rising(x: Floats, p: float, q: float) -> Floats:
     return np.asarray((1.0 - (1.0 - np.clip(x, 0.0, 1.0)) ** p) ** q)
 
 
-def _pinned(values: Signal) -> Signal:
+def _pinned(values: Floats) -> Floats:
     """Return the values made monotonic, from 0 to 1."""
     rising = np.clip(np.maximum.accumulate(values), 0.0, 1.0)
     rising[0], rising[-1] = 0.0, 1.0
     return np.asarray(rising)
 
 
-def _smoothed(values: Signal, n: int) -> Signal:
+def _smoothed(values: Floats, n: int) -> Floats:
     """Return the running mean over n bins, over fewer at the ends."""
     n = min(n, len(values))
     return np.asarray(np.convolve(values, np.ones(n), "same") / np.convolve(np.ones(len(values)), np.ones(n), "same"))
 
 
-def _db(power: Signal | float) -> Signal:
+def _db(power: Floats | float) -> Floats:
     return np.asarray(10.0 * np.log10(np.maximum(power, 1e-300)))

@@ -15,12 +15,10 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 from numpy.lib.stride_tricks import sliding_window_view
-from numpy.typing import NDArray
 
 from scene2hap.audio.spectra.components import components, magnitudes
 from scene2hap.audio.spectra.windows import hann
-
-Signal = NDArray[np.float64]
+from scene2hap.common.arrays import Floats, Indices
 
 LINES_HZ = (20.0, 1000.0)
 FAINTEST_LINE_DB = -30.0
@@ -57,8 +55,8 @@ _LOBE = 2.0
 class SpeedTrack(NamedTuple):
     """Times (n,) [s] of frames that show the speed, and the speed relative to steady running (n,) [-]."""
 
-    at_s: Signal
-    speed: Signal
+    at_s: Floats
+    speed: Floats
 
     @property
     def is_constant(self) -> bool:
@@ -67,7 +65,7 @@ class SpeedTrack(NamedTuple):
 
 
 def track_speed(
-    samples: Signal, sample_rate_hz: float, rise_s: tuple[float, float], steady_s: tuple[float, float]
+    samples: Floats, sample_rate_hz: float, rise_s: tuple[float, float], steady_s: tuple[float, float]
 ) -> SpeedTrack | None:
     """Track the speed over a rise in a recording (n,).
 
@@ -98,13 +96,13 @@ def track_speed(
     return track if is_shown else None
 
 
-def _centres(x: Signal, at: NDArray[np.intp], size: int) -> Signal:
+def _centres(x: Floats, at: Indices, size: int) -> Floats:
     """Return the centre of energy of each windowed frame (n_frames,) [samples], which is late while the level rises."""
     energy = (sliding_window_view(x, size)[at] * hann(size)) ** 2 + 1e-30
     return np.asarray(energy @ np.arange(size) / energy.sum(axis=1))
 
 
-def _scores(x: Signal, at: NDArray[np.intp], size: int, rate: float, lines_hz: Signal) -> Signal:
+def _scores(x: Floats, at: Indices, size: int, rate: float, lines_hz: Floats) -> Floats:
     """Return the score of each frame and speed (n_frames, n_speeds) [dB]."""
     n = scipy.fft.next_fast_len(_PADDING * size, real=True)
     frames = sliding_window_view(x, size)[at]
@@ -120,7 +118,7 @@ def _scores(x: Signal, at: NDArray[np.intp], size: int, rate: float, lines_hz: S
     return np.asarray((over_db[:, low] * (1 - share) + over_db[:, low + 1] * share).mean(axis=2))
 
 
-def _ground_db(level_db: Signal, width: int) -> Signal:
+def _ground_db(level_db: Floats, width: int) -> Floats:
     """Return the noise floor of spectra (n_frames, n_bins) [dB], interpolated between the middles of blocks."""
     n_frames, n = level_db.shape
     n_blocks = max(1, n // width)
@@ -133,7 +131,7 @@ def _ground_db(level_db: Signal, width: int) -> Signal:
     return np.asarray(ground[:, low] * (1 - share) + ground[:, np.minimum(low + 1, n_blocks - 1)] * share)
 
 
-def _best_path(score: Signal, steps: int) -> tuple[Signal, Signal]:
+def _best_path(score: Floats, steps: int) -> tuple[Floats, Floats]:
     """Return speed and score of each frame (n_frames,) on the best path that ends near full speed, and rises by at most
     `steps` of the grid per frame."""
     n_frames, n = score.shape

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.protocol import AudioSource
-from scene2hap.audio.sources.disk_cache import is_long_enough
+from scene2hap.audio.sources.candidates import is_long_enough
 from scene2hap.common import checks
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import AudioError, Scene2HapError

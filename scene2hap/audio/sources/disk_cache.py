@@ -17,10 +17,8 @@ from typing import Any
 
 import soundfile
 
-from scene2hap.audio.analysis import trim_silence
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import read_clip
-from scene2hap.audio.select import MIN_DURATION_S
 from scene2hap.common.files import draft_of, path_in_c, read_small
 from scene2hap.errors import AudioError, ConfigError, reason_of, unwritable
 
@@ -42,11 +40,6 @@ def plain_line(text: object, longest: int = 200) -> str:
     """Return untrusted text as one line for a credits file, without line breaks and control characters."""
     kept = "".join(c if c.isprintable() else " " for c in str(text))
     return re.sub(r"\s+", " ", kept).strip()[:longest]
-
-
-def is_long_enough(clip: AudioClip) -> bool:
-    """Return True if a clip without its silent ends is longer than the selection's lower bound."""
-    return len(trim_silence(clip.samples, clip.sample_rate_hz)) > MIN_DURATION_S * clip.sample_rate_hz
 
 
 def read_checked(path: Path, credit: Credit) -> AudioClip:

@@ -11,8 +11,7 @@ from pathlib import Path
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import SUFFIXES, read_clip
 from scene2hap.audio.select import MIN_DURATION_S
-from scene2hap.audio.sources.candidates import MAX_CANDIDATES
-from scene2hap.audio.sources.disk_cache import is_long_enough
+from scene2hap.audio.sources.candidates import MAX_CANDIDATES, is_long_enough
 from scene2hap.audio.sources.word_stems import is_anything, joined_stems, noun_phrase, says_nothing, stems
 from scene2hap.common import checks
 from scene2hap.common.csv_tables import csv_reader

@@ -1,1 +1,1 @@
-"""Spectra of sounds: their window, their components, and their audible part."""
+"""Spectra of sounds: their window, and their components."""

@@ -6,11 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from scene2hap.audio.spectra.windows import hann
-
-Signal = NDArray[np.float64]
+from scene2hap.common.arrays import Floats
 
 LINE_DB = 13.5
 """Least height of a line above the median of its surroundings [dB]. Five seconds of noise have 5000 bins up to 1 kHz.
@@ -38,28 +36,28 @@ class Component(NamedTuple):
         return self.above_noise_db >= LINE_DB
 
 
-def magnitudes(x: Signal) -> Signal:
+def magnitudes(x: Floats) -> Floats:
     """Return the magnitude spectrum of a sound (n,), Hann-windowed and padded to an even length of at least 2 n."""
     n = 2 * scipy.fft.next_fast_len(len(x), real=True)
-    found: Signal = np.abs(scipy.fft.rfft((x - x.mean()) * hann(len(x)), n))
+    found: Floats = np.abs(scipy.fft.rfft((x - x.mean()) * hann(len(x)), n))
     return found
 
 
 def components(
-    magnitude: Signal, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float, most: int = _MOST
+    magnitude: Floats, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float, most: int = _MOST
 ) -> list[Component]:
     """Return the peaks of a spectrum from `magnitudes`, as `peaks` finds them, with their surroundings."""
     found = peaks(magnitude, sample_rate_hz, range_hz, faintest_db, most)
     return [Component(hz, level_db, _above_noise_db(magnitude, k)) for k, hz, level_db in found]
 
 
-def strongest_component(magnitude: Signal, sample_rate_hz: float, range_hz: tuple[float, float]) -> Component | None:
+def strongest_component(magnitude: Floats, sample_rate_hz: float, range_hz: tuple[float, float]) -> Component | None:
     """Return the highest peak of a spectrum from `magnitudes` within a range, None without any."""
     return next(iter(components(magnitude, sample_rate_hz, range_hz, 0.0, 1)), None)
 
 
 def peaks(
-    magnitude: Signal, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float, most: int = _MOST
+    magnitude: Floats, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float, most: int = _MOST
 ) -> list[tuple[int, float, float]]:
     """Return bin, frequency [Hz] and level [dB] of the strongest peaks within a range, strongest first.
 
@@ -87,7 +85,7 @@ def peaks(
 
 
 def strongest_bands_hz(
-    magnitude: Signal, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float
+    magnitude: Floats, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float
 ) -> list[float]:
     """Return the centres of the third octaves within a range [Hz], strongest first, down to -`faintest_db` below it."""
     n = 2 * (len(magnitude) - 1)
@@ -104,14 +102,14 @@ def strongest_bands_hz(
     return [float(middles[k]) for k in order if energy[k] >= energy.max() * 10 ** (faintest_db / 10)]
 
 
-def _above_noise_db(magnitude: Signal, k: int) -> float:
+def _above_noise_db(magnitude: Floats, k: int) -> float:
     # Spectra are padded to twice the sound: a main lobe has eight bins.
     reach = max(k * (_AROUND - 1.0), _LOBES * 8)
     around = magnitude[max(1, int(k - reach)) : int(k + reach) + 1]
     return float(20.0 * np.log10(magnitude[k] / max(float(np.median(around)), 1e-300)))
 
 
-def peak_offset(three: Signal) -> float:
+def peak_offset(three: Floats) -> float:
     """Return where a parabola through the logarithms of three bins is highest, -0.5..0.5 bins from the middle one."""
     a, b, c = np.log(np.maximum(three, np.finfo(float).tiny))
     curvature = a - 2 * b + c

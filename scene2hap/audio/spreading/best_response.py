@@ -1,15 +1,15 @@
 """Move many sources apart by iterated best response: each in turn takes the place of least cost, until none moves.
 
-The cost is that of the move plus the weighted missing distances to other voices [oct]. Places are a grid of 49
-frequencies and 13 levels. Unlike `linear_programme`, this is not exact, but a hundred voices take only seconds.
+The cost is that of the move plus the weighted missing distances to other sources [oct]. Places are a grid of 49
+frequencies and 13 levels. Unlike `linear_programme`, this is not exact, but a hundred sources take only seconds.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.audio.spreading.placements import Array, Outcome, Problem, shortage_oct
+from scene2hap.audio.spreading.placements import Outcome, Problem, shortage_oct
+from scene2hap.common.arrays import Floats, Ints
 
 _N_X, _N_L = 49, 13
 _SWEEPS = 40
@@ -25,7 +25,7 @@ def iterated_best_response(problem: Problem) -> Outcome:
     return min(outcomes, key=lambda outcome: _SHORTAGE_WEIGHT * outcome.shortage_oct + outcome.moves)
 
 
-def _settled(problem: Problem, start: Array) -> Outcome:
+def _settled(problem: Problem, start: Floats) -> Outcome:
     x, level = start.copy(), problem.l0.copy()
     neighbours = [_Neighbours(problem, i) for i in range(len(problem.x0))]
     for _ in range(_SWEEPS):
@@ -38,7 +38,7 @@ def _settled(problem: Problem, start: Array) -> Outcome:
 
 
 class _Neighbours:
-    """The voices from which a voice must differ, and those whose level must stay below or above, with the gaps [dB]."""
+    """The sources from which one must differ, and those whose level must stay below or above it, with the gaps [dB]."""
 
     def __init__(self, problem: Problem, i: int) -> None:
         self.partners = np.array([b if a == i else a for a, b in problem.pairs if i in (a, b)], dtype=np.int64)
@@ -48,11 +48,11 @@ class _Neighbours:
         self.above, self.above_gap = _columns(above)
 
 
-def _columns(rows: list[tuple[int, float]]) -> tuple[NDArray[np.int64], Array]:
+def _columns(rows: list[tuple[int, float]]) -> tuple[Ints, Floats]:
     return np.array([i for i, _ in rows], dtype=np.int64), np.array([gap for _, gap in rows], dtype=np.float64)
 
 
-def _best_place(problem: Problem, i: int, x: Array, level: Array, others: _Neighbours) -> tuple[float, float]:
+def _best_place(problem: Problem, i: int, x: Floats, level: Floats, others: _Neighbours) -> tuple[float, float]:
     lowest = np.max(level[others.below] + others.below_gap, initial=problem.l_low[i])
     highest = np.min(level[others.above] - others.above_gap, initial=problem.l_high[i])
     partners = others.partners

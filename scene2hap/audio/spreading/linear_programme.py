@@ -1,14 +1,14 @@
 """Move few sources apart, each as little as possible, by a mixed-integer linear programme.
 
-For voice i, x_i [oct] is the logarithm of its frequency and l_i [dB] its level. X and Y are the limits of their moves.
-Every pair has three binaries, which voice is higher (o) and whether the first or the second is stronger by two JNDs
+For source i, x_i [oct] is the logarithm of its frequency and l_i [dB] its level. X and Y are the limits of their moves.
+Every pair has three binaries, which source is higher (o) and whether the first or the second is stronger by two JNDs
 (m, m'), and a slack s [oct], the missing distance. M and M' switch a row off:
 
     minimise  sum_i |x_i - x_i0| / X + |l_i - l_i0| / Y + W sum_ij s_ij
     x_j - x_i >= d (2 - m - m') - s - M (1 - o)  d [oct] one JND of frequency: two of them, or one and two of level
     x_i - x_j >= d (2 - m - m') - s - M o
     l_i - l_j >= 2 J - M' (1 - m)                J [dB] one JND of level; m is 0 if i is the weaker of the two
-    l_j - l_i >= 2 J - M' (1 - m')               m' is 0 if j is; of equal voices either may become the stronger
+    l_j - l_i >= 2 J - M' (1 - m')               m' is 0 if j is; of equal sources either may become the stronger
     l_i >= l_j + least gap                       the order of intensities
 
 W is so large that slack remains only where the limits force it. The solution is exact, but slow beyond some thirty
@@ -21,7 +21,8 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike
 
-from scene2hap.audio.spreading.placements import LEVEL_STEP_DB, Array, Outcome, Problem
+from scene2hap.audio.spreading.placements import LEVEL_STEP_DB, Outcome, Problem
+from scene2hap.common.arrays import Floats
 
 _SLACK_WEIGHT = 1000.0
 _NODES = 1000
@@ -113,5 +114,5 @@ class LinearProgramme:
         return scipy.sparse.csr_array((values, (at[0], at[1])), shape=(len(self._rows), width))
 
 
-def _joined(*parts: ArrayLike) -> Array:
+def _joined(*parts: ArrayLike) -> Floats:
     return np.concatenate([np.asarray(part, dtype=np.float64) for part in parts])

@@ -3,7 +3,7 @@
 A fixed band-pass keeps the same few hundred hertz of every source, so that different sounds feel alike. This converter:
 
 1. finds the source's own frequency: the strongest component that this actuator can render at the source's level
-   (`anchor`). The context gives it if the whole sound was analysed; else it is tracked while the sound plays;
+   (`felt_component`). The context gives it if the whole sound was analysed; else it is tracked while the sound plays;
 2. keeps a band around it: two trapezoidal state-variable band-passes in series (12 dB per octave). The band is narrow
    enough for the own frequency to dominate, and wide enough (f / Q at -6 dB) for the beats and irregularities of a
    machine;
@@ -20,14 +20,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scene2hap.audio.anchor import TrackedAnchor
-from scene2hap.audio.anchor.whole_sound import BAND_Q, Anchor, band_gain, reachable_hz
-from scene2hap.audio.distinctness import FREQUENCY_WEBER
+from scene2hap.audio.actuator_range import reachable_hz
+from scene2hap.audio.felt_component import TrackedComponent
+from scene2hap.audio.felt_component.bands import BAND_Q, band_gain
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
-from scene2hap.audio.tactile.stages import Chain, InStep, ShiftStage, Signal, SosStage, Stage, StageStream
+from scene2hap.audio.tactile.frequency_shift import ShiftStage
+from scene2hap.audio.tactile.stages import Chain, InStep, SosStage, Stage, StageStream
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
+from scene2hap.audio.threshold import FREQUENCY_WEBER
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import ConfigError
 
 _LOOK_S = 0.5
@@ -103,7 +106,7 @@ class Adaptive:
         if not context.neighbours_hz or self.shift_octaves == 0.0:
             return own_hz
         level_db = sensation_level_db(context.intensity)
-        low, high, _ = reachable_hz(Anchor(own_hz), level_db, context.actuator, self.shift_octaves)
+        low, high, _ = reachable_hz(own_hz, level_db, context.actuator, self.shift_octaves)
         return clear_of(own_hz, context.neighbours_hz, low, high)
 
 
@@ -141,14 +144,14 @@ class _Tracking(Stage):
         self._n_unchanged = 0
         self._n_seen = 0  # negative during the pause before the next stretch
         self._fade = max(1, round(_FADE_S * sample_rate_hz))
-        self._anchor = TrackedAnchor(sample_rate_hz / self._step, self._level_db, context.actuator)
+        self._component = TrackedComponent(sample_rate_hz / self._step, self._level_db, context.actuator)
         self._own_hz: float | None = None
         self._band: Stage = SosStage(SvfBandpass(min(250.0, 0.4 * sample_rate_hz)).section(sample_rate_hz))
         self._gain = self._retiring_gain = 1.0
         self._retiring: Stage | None = None
         self._n_faded = 0
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         parts = []
         while x.size:
             n = min(len(x), len(self._seen) - self._n_seen)
@@ -162,12 +165,12 @@ class _Tracking(Stage):
             self._n_seen += n
             parts.append(self._filtered(taken))
             if self._n_seen == len(self._seen):
-                self._look()
+                self._analyse()
         if len(parts) == 1:
             return parts[0]
         return np.concatenate(parts) if parts else x
 
-    def _filtered(self, x: Signal) -> Signal:
+    def _filtered(self, x: Floats) -> Floats:
         y = self._gain * self._band.run(x)
         if self._retiring is None:
             return y
@@ -178,7 +181,7 @@ class _Tracking(Stage):
             self._retiring = None
         return y
 
-    def _look(self) -> None:
+    def _analyse(self) -> None:
         rest_s = _RESTS_S[min(self._n_unchanged, len(_RESTS_S) - 1)]
         self._n_seen = -round(rest_s * self._rate_hz)
         self._n_unchanged += 1
@@ -186,11 +189,11 @@ class _Tracking(Stage):
         thinned = thinned / self._step
         if np.abs(thinned).max() < _SILENCE:
             return
-        own_hz = self._anchor.look(thinned)
+        own_hz = self._component.analyse(thinned)
         if own_hz is None or (self._own_hz is not None and abs(np.log(own_hz / self._own_hz)) < np.log1p(_MOVED)):
             return
-        wide = self._anchor.share(lambda f: band_gain(f, 250.0, _WIDE_Q))
-        narrow = self._anchor.share(lambda f: band_gain(f, own_hz, self._design.q) ** 2)
+        wide = self._component.passed_power(lambda f: band_gain(f, 250.0, _WIDE_Q))
+        narrow = self._component.passed_power(lambda f: band_gain(f, own_hz, self._design.q) ** 2)
         self._retiring_gain, self._gain = self._gain, float(np.clip((wide / narrow) ** 0.5, 1 / _MOST_GAIN, _MOST_GAIN))
         self._own_hz, self._n_unchanged = own_hz, 0
         self._retiring, self._n_faded = self._band, 0

@@ -17,11 +17,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from scene2hap.audio.distinctness import LEVEL_JND_DB
 from scene2hap.audio.tactile.following import faded, rising_over
 from scene2hap.audio.tactile.onsets import QUIETEST, RISE, STEP_S
-from scene2hap.audio.tactile.stages import Signal, Stage
+from scene2hap.audio.tactile.stages import Stage
 from scene2hap.audio.tactile.step_energies import StepEnergies
+from scene2hap.audio.threshold import LEVEL_JND_DB
+from scene2hap.common.arrays import Floats
 
 JND = 10 ** (LEVEL_JND_DB / 10)
 """Ratio of energies that touch just notices, and the largest lift. Only those of dense ticks that follow a pause are
@@ -50,18 +51,18 @@ class EmphasizedAttacks(Stage):
         self._gains = np.ones(LASTS + 1)  # at the beginnings of the next steps
         self._since = APART  # steps since the last attack
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return the samples whose attacks are known."""
         return self._emphasized(x, self._felt.run(x))
 
-    def rest(self) -> Signal:
+    def rest(self) -> Floats:
         """Return the last samples, as if silence followed."""
         left = self._felt.rest()
         n = len(self._waiting) + len(left)
         silence = np.zeros((LASTS + 2) * self._step)
         return self._emphasized(silence, np.concatenate([left, silence]))[:n]
 
-    def _emphasized(self, x: Signal, y: Signal) -> Signal:
+    def _emphasized(self, x: Floats, y: Floats) -> Floats:
         self._waiting = np.concatenate([self._waiting, y])
         self._sound = np.concatenate([self._sound, self._of_sound.next(x)])
         self._made = np.concatenate([self._made, self._of_felt.next(y)])
@@ -93,7 +94,7 @@ class EmphasizedAttacks(Stage):
         return found
 
 
-def _rise(energies: Signal) -> float:
+def _rise(energies: Floats) -> float:
     """Return the ratio of the highest mean of two steps from `BEFORE` on to the mean of the steps before."""
     highest = 0.5 * float((energies[BEFORE:-1] + energies[BEFORE + 1 :]).max())
     return (highest + QUIETEST) / (float(energies[:BEFORE].mean()) + QUIETEST)

@@ -18,11 +18,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scene2hap.audio.anchor.whole_sound import BAND_Q, CARRIER_RANGE_HZ, HIGHEST_PEAK_DB, best_carrier_hz, is_beep
+from scene2hap.audio.actuator_range import CARRIER_RANGE_HZ, HIGHEST_PEAK_DB, best_carrier_hz
+from scene2hap.audio.felt_component.bands import BAND_Q
+from scene2hap.audio.felt_component.choice import is_beep
+from scene2hap.audio.infrasound import infrasound_filter
 from scene2hap.audio.levels import drive_db, sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.second_order import high_pass
-from scene2hap.audio.spectra.heard import heard_sections
 from scene2hap.audio.tactile.adaptive import Adaptive, band_around
 from scene2hap.audio.tactile.attacks import EmphasizedAttacks
 from scene2hap.audio.tactile.bursts import WithBursts
@@ -53,15 +55,7 @@ class Auto(Adaptive):
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
         """Start a conversion at a sample rate."""
-        beep_hz = _beep_hz(context)
-        if beep_hz is not None:
-            # This high-pass removes hum and noise of the room, which would fill the pauses of the beep.
-            above = high_pass(min(0.5 * beep_hz, 0.4 * sample_rate_hz), sample_rate_hz)
-            stages: list[Stage] = [SosStage(above), *EnvelopeCarrier().stream(sample_rate_hz, context).stages]
-        else:
-            q = self.q if context.rough_hz is None else max(self.q, _ROUGH_BED_Q)
-            stages = [*Adaptive(q, self.shift_octaves).stream(sample_rate_hz, context).stages]
-        bed: Stage = Chain(stages)
+        bed = self._bed(sample_rate_hz, context)
         is_known = context.own_hz is not None  # the whole sound was analysed, so this is no live stream
         bed_db = context.band_db if is_known else _LIVE_DB
         felt_hz = (context.target_hz or context.own_hz) if is_known else None
@@ -88,17 +82,21 @@ class Auto(Adaptive):
             bed_db=share_db,
             ringing_s=ringing_s(context.actuator) if is_known else 0.0,
         )
-        parts: list[Stage] = [WholeSteps(with_bursts.step), SosStage(heard_sections(sample_rate_hz))]
+        parts: list[Stage] = [WholeSteps(with_bursts.step), SosStage(infrasound_filter(sample_rate_hz))]
         parts.append(EmphasizedAttacks(with_bursts, with_bursts.step) if is_known else with_bursts)
         if bed_db is None:
             return StageStream(*parts)
         return StageStream(*parts, Scaled(_ROOM if rendered is None else _ROOM * 10 ** (-HEADROOM_DB / 20)))
 
-
-def _beep_hz(context: ConversionContext) -> float | None:
-    """Return the own frequency of a source that is felt far below it, else None [Hz]."""
-    own_hz, target_hz = context.own_hz, context.target_hz
-    return own_hz if own_hz is not None and target_hz is not None and is_beep(own_hz, target_hz) else None
+    def _bed(self, sample_rate_hz: int, context: ConversionContext) -> Stage:
+        """Return the band of the source; of a beep, which is felt far below its own frequency, the envelope."""
+        own_hz, target_hz = context.own_hz, context.target_hz
+        if own_hz is not None and target_hz is not None and is_beep(own_hz, target_hz):
+            # This high-pass removes hum and noise of the room, which would fill the pauses of the beep.
+            above = high_pass(min(0.5 * own_hz, 0.4 * sample_rate_hz), sample_rate_hz)
+            return Chain([SosStage(above), *EnvelopeCarrier().stream(sample_rate_hz, context).stages])
+        q = self.q if context.rough_hz is None else max(self.q, _ROUGH_BED_Q)
+        return Chain(Adaptive(q, self.shift_octaves).stream(sample_rate_hz, context).stages)
 
 
 def carrier_hz(context: ConversionContext) -> float:

@@ -19,8 +19,9 @@ import numpy as np
 
 from scene2hap.audio.second_order import high_pass
 from scene2hap.audio.tactile.onsets import STEP_S, OnsetDetector, PendingOnset
-from scene2hap.audio.tactile.stages import Signal, SosStage, Stage
+from scene2hap.audio.tactile.stages import SosStage, Stage
 from scene2hap.audio.tactile.step_energies import mean_squares
+from scene2hap.common.arrays import Floats
 
 TICKS_HZ = 1000.0
 """Lowest frequency of the part in which ticks are looked for [Hz]."""
@@ -67,9 +68,9 @@ class WithBursts(Stage):
         longest = max(1, round((DULL_S + self._ringing_s) * sample_rate_hz))
         self._carrier = np.sin(2.0 * np.pi * carrier_hz / sample_rate_hz * np.arange(longest))
         self._due: list[PendingOnset] = []
-        self._bursts: list[tuple[int, Signal]] = []
+        self._bursts: list[tuple[int, Floats]] = []
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return the samples for which onsets are decided."""
         self._waiting = np.concatenate([self._waiting, x])
         n_whole = len(self._waiting) // self.step
@@ -87,14 +88,14 @@ class WithBursts(Stage):
             spared.reshape(-1, self.step)[lowered] *= shares[lowered, None]
         return self._mixed(self._bed.run(spared))
 
-    def rest(self) -> Signal:
+    def rest(self) -> Floats:
         """Return the last samples, as if silence followed."""
         n_left = len(self._waiting) % self.step
         parts = [self.run(np.zeros(self._detector.look * self.step))]
         parts.append(self._mixed(self._bed.run(self._waiting[:n_left])))
         return np.concatenate([*parts, self._mixed(self._bed.rest())])
 
-    def _mixed(self, bed: Signal) -> Signal:
+    def _mixed(self, bed: Floats) -> Floats:
         """Return the next samples of the bed, with their bursts added."""
         begin, end = self._n_made, self._n_made + len(bed)
         self._n_made = end
@@ -115,7 +116,7 @@ class WithBursts(Stage):
         self._bursts = [one for one in self._bursts if one[0] + len(one[1]) > end]
         return out
 
-    def _burst(self, due: PendingOnset, bed_before: Signal) -> Signal:
+    def _burst(self, due: PendingOnset, bed_before: Floats) -> Floats:
         n = round((SHARP_S + (DULL_S - SHARP_S) * due.left + self._ringing_s) * self._rate_hz)
         bed = float(max(bed_before.max(), -bed_before.min()))
         amplitude = math.sqrt(2.0 * due.height)
@@ -126,7 +127,7 @@ class WithBursts(Stage):
         if bed > NO_BED * amplitude:
             amplitude = _limited(amplitude, bed)
         shape = 0.5 - 0.5 * np.cos(2.0 * np.pi / n * np.arange(n))
-        burst: Signal = amplitude * shape * self._carrier[:n]
+        burst: Floats = amplitude * shape * self._carrier[:n]
         return burst
 
 

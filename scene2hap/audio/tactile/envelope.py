@@ -18,9 +18,10 @@ import numpy as np
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.second_order import low_pass
 from scene2hap.audio.tactile.oscillator import Oscillator
-from scene2hap.audio.tactile.stages import Signal, SosStage, Stage, StageStream
+from scene2hap.audio.tactile.stages import SosStage, Stage, StageStream
 from scene2hap.audio.threshold import TACTILE_RANGE_HZ
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import ConfigError
 
 BEST_FELT_HZ = 250.0
@@ -58,9 +59,9 @@ class _EnvelopeStage(Stage):
         self._carrier = Oscillator(carrier_hz, sample_rate_hz)
         self._position = 0
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         # A Butterworth filter overshoots, and a negative envelope would invert the carrier's phase.
         envelope = np.maximum(self._smooth.run(np.abs(x)) * (0.5 * math.pi), 0.0)
-        y: Signal = self._carrier.times(envelope, self._position)[1]
+        y: Floats = self._carrier.times(envelope, self._position)[1]
         self._position += len(x)
         return y

@@ -37,8 +37,9 @@ from numpy.lib.stride_tricks import sliding_window_view
 from scene2hap.audio.spectra.windows import hann
 from scene2hap.audio.tactile.onsets import STEP_S as LIVE_STEP_S
 from scene2hap.audio.tactile.oscillator import Oscillator
-from scene2hap.audio.tactile.stages import Signal, Stage
+from scene2hap.audio.tactile.stages import Stage
 from scene2hap.audio.tactile.step_energies import StepEnergies
+from scene2hap.common.arrays import Floats
 from scene2hap.compiled import compiled
 
 STEP_S = 0.005
@@ -96,11 +97,11 @@ class LevelFollower(Stage):
         self._rising = rising_over(self._step)
         self._gains = np.empty((2, 0))  # of bed and sine, at the beginning of the next step
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return the samples whose level is known."""
         return self._followed(x, self._bed.run(x))
 
-    def rest(self) -> Signal:
+    def rest(self) -> Floats:
         """Return the last samples, as if silence followed."""
         left = self._bed.rest()
         parts = [self._followed(np.empty(0), left)] if left.size else []
@@ -109,7 +110,7 @@ class LevelFollower(Stage):
         parts.append(self._followed(silence, silence)[:n_waiting])
         return np.concatenate(parts)
 
-    def _followed(self, x: Signal, y: Signal) -> Signal:
+    def _followed(self, x: Floats, y: Floats) -> Floats:
         self._waiting = np.concatenate([self._waiting, y]) if self._waiting.size else y
         sound = np.concatenate([self._sound, x]) if self._sound.size else x
         x, self._sound = sound[: len(y)], sound[len(y) :]
@@ -128,7 +129,7 @@ class LevelFollower(Stage):
         self._gains = gains[:, -1:]
         return self._released(*gains)
 
-    def _released(self, gains: Signal, amplitudes: Signal) -> Signal:
+    def _released(self, gains: Floats, amplitudes: Floats) -> Floats:
         """Return the n - 1 steps between gains of the bed (n,), each faded from one gain to the next, plus the sine."""
         n = (len(gains) - 1) * self._step
         y, self._waiting = self._waiting[:n], self._waiting[n:]
@@ -140,7 +141,7 @@ class LevelFollower(Stage):
 
 
 @compiled
-def gains_of(energies: Signal, window: Signal, n_ahead: int, usual_db: float, means: Signal) -> Signal:
+def gains_of(energies: Floats, window: Floats, n_ahead: int, usual_db: float, means: Floats) -> Floats:
     """Return the gains of bed and sine at the beginnings of n steps (2, n), each from its window.
 
     Parameters: energies : of sound, bed and rendered bed, if it differs, by steps (2 or 3, n + len(window) - 1);
@@ -153,7 +154,7 @@ def gains_of(energies: Signal, window: Signal, n_ahead: int, usual_db: float, me
     before, after = weighted[..., :middle].sum(axis=2), weighted[..., middle:].sum(axis=2)
     levels = before + after
     sound, bed = levels[0], levels[-1]
-    usual: Signal | float = usual_db
+    usual: Floats | float = usual_db
     if math.isnan(usual_db):
         slow, left = scipy.signal.lfilter([1.0 - FORGET], [1.0, -FORGET], [sound, bed], axis=1, zi=means[:, None])
         usual, means[:] = _ratio_db(*slow), left[:, 0]
@@ -172,7 +173,7 @@ def gains_of(energies: Signal, window: Signal, n_ahead: int, usual_db: float, me
     return np.stack([gains, np.sqrt(2.0 * (bed + NOTHING) * lacking)])
 
 
-def _lifts(levels: Signal, usual: Signal | float) -> tuple[Signal, Signal]:
+def _lifts(levels: Floats, usual: Floats | float) -> tuple[Floats, Floats]:
     """Return the gains that beds need, and the largest they may have [dB]; levels : energies as in `gains_of`."""
     sound, drive, bed = levels[0], levels[1], levels[-1]
     beyond = _ratio_db(sound, bed) - usual
@@ -182,12 +183,12 @@ def _lifts(levels: Signal, usual: Signal | float) -> tuple[Signal, Signal]:
     return np.clip(beyond, -FREE_DB, FREE_DB) - beyond, most
 
 
-def _ratio_db(sound: Signal, bed: Signal) -> Signal:
+def _ratio_db(sound: Floats, bed: Floats) -> Floats:
     """Return the level of the bed relative to its sound [dB], from their energies (n,)."""
     return np.asarray(10.0 * np.log10((bed + NOTHING) / (sound + NOTHING)))
 
 
-def rising_over(step: int) -> Signal:
+def rising_over(step: int) -> Floats:
     """Return the share of the later gain in each sample of a step (step,), a raised cosine [-].
 
     A straight ramp has corners, which click where actuators are heard and not felt: a tone that rises from -20 to
@@ -197,7 +198,7 @@ def rising_over(step: int) -> Signal:
 
 
 @compiled
-def faded(y: Signal, gains: Signal, rising: Signal) -> Signal:
+def faded(y: Floats, gains: Floats, rising: Floats) -> Floats:
     """Apply a gain that changes from one of gains (n + 1,) to the next in each of n steps of y.
 
     Parameters: rising : the share of the later gain in each sample of a step.

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.audio.tactile.stages import Signal
+from scene2hap.common.arrays import Floats
 from scene2hap.compiled import compiled
 
 STEP_S = 0.0025
@@ -62,7 +62,7 @@ class PendingOnset(NamedTuple):
 
 
 @compiled
-def followed(energies: Signal, memory: Signal, n_known: int) -> Signal:
+def followed(energies: Floats, memory: Floats, n_known: int) -> Floats:
     """Return the energies of two bands (2, n), with slow mean and recent maximum before each: (2, 3, n).
 
     Parameters: memory : slow mean and recent maximum after the n_known earlier steps (2, 2), updated by this function.
@@ -86,8 +86,8 @@ def followed(energies: Signal, memory: Signal, n_known: int) -> Signal:
 
 @compiled
 def onsets_among(
-    steps: Signal, n: int, n_known: int, memory: Signal, spares_sustained: bool
-) -> tuple[list[tuple[int, float, float]], Signal | None]:
+    steps: Floats, n: int, n_known: int, memory: Floats, spares_sustained: bool
+) -> tuple[list[tuple[int, float, float]], Floats | None]:
     """Find the onsets that begin in the first n steps, and the attenuation of the bed's input after each.
 
     Parameters: steps : energy, slow mean and recent maximum of each step of sound and ticks (2, 3, m), where m exceeds
@@ -138,7 +138,7 @@ def onsets_among(
     return onsets, shares if (shares < 1.0).any() else None
 
 
-def _highest(bands: Signal, k: int) -> tuple[float, float, bool]:
+def _highest(bands: Floats, k: int) -> tuple[float, float, bool]:
     """Return the higher onset of both bands at a step: its energy (0 without an onset), the share of this energy after
     `LOOK` steps, and True if it is sustained."""
     found = 0.0, 0.0, False
@@ -153,7 +153,7 @@ def _highest(bands: Signal, k: int) -> tuple[float, float, bool]:
     return found
 
 
-def _is_hidden(steps: Signal, k: int) -> bool:
+def _is_hidden(steps: Floats, k: int) -> bool:
     """Return True if the energy of the whole sound hardly rises at an onset of steps (2, 3, m): no bed follows it.
 
     The mean may still be that of a vowel that has faded. So ticks that make up the sound alone are not hidden.
@@ -181,7 +181,7 @@ class OnsetDetector:
         """The number of steps that are not decided."""
         return self._steps.shape[2]
 
-    def decided(self, energies: Signal) -> tuple[list[PendingOnset], Signal | None]:
+    def decided(self, energies: Floats) -> tuple[list[PendingOnset], Floats | None]:
         """Return the result of `onsets_among` for the steps that these energies (2, n) of sound and ticks decide."""
         found = followed(energies, self._means, self.n_decided + self.n_waiting)
         steps = np.concatenate([self._steps, found], axis=2)
@@ -199,7 +199,7 @@ class OnsetDetector:
         self.n_decided += n
         return due, shares if (shares < 1.0).any() else None
 
-    def _search(self, steps: Signal) -> None:
+    def _search(self, steps: Floats) -> None:
         """Find the onsets of those steps whose onsets can be measured."""
         first = len(self._shares)
         n = max(0, steps.shape[2] - self._n_measuring - first)
@@ -209,7 +209,7 @@ class OnsetDetector:
         self._shares = np.concatenate([self._shares, np.ones(n) if shares is None else shares])
 
 
-def _measured(steps: Signal, shares: Signal, k: int, height: float, left: float, end: int) -> PendingOnset:
+def _measured(steps: Floats, shares: Floats, k: int, height: float, left: float, end: int) -> PendingOnset:
     """Return an onset at step k of steps (2, 3, m), with the energy that the bed is spared until step `end`."""
     before, energies = float(steps[0, 1, k]), steps[0, 0, k:end]
     is_beds = (shares[k:end] == 1.0) & (energies > LOWERED * before)

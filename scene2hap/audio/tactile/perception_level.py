@@ -25,8 +25,9 @@ import scipy
 
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.oscillator import Oscillator
-from scene2hap.audio.tactile.stages import Signal, Stage, StageStream
+from scene2hap.audio.tactile.stages import Stage, StageStream
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import ConfigError
 
 _FRAME_S = 4096 / 44_100
@@ -84,7 +85,7 @@ class _Translation(Stage):
         self._low = Oscillator(_LOW_HZ, sample_rate_hz)
         self._high = Oscillator(_HIGH_HZ, sample_rate_hz)
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         out = []
         while x.size:
             taken = x[: self._size - self._filled]
@@ -95,11 +96,11 @@ class _Translation(Stage):
                 out.append(self._rendered(self._size))
         return np.concatenate(out) if out else np.empty(0)
 
-    def rest(self) -> Signal:
+    def rest(self) -> Floats:
         held, self._frame[self._filled :] = self._filled, 0.0
         return self._rendered(held)
 
-    def _rendered(self, n: int) -> Signal:
+    def _rendered(self, n: int) -> Floats:
         target = np.array(amplitudes(self._frame, self._rate_hz)) / self._full_scale
         ramp = np.arange(1, n + 1) / self._size
         glide = self._amplitudes[:, None] + (target - self._amplitudes)[:, None] * ramp
@@ -111,7 +112,7 @@ class _Translation(Stage):
         return np.asarray(glide[0] * low + glide[1] * high)
 
 
-def amplitudes(frame: Signal, sample_rate_hz: float) -> tuple[float, float]:
+def amplitudes(frame: Floats, sample_rate_hz: float) -> tuple[float, float]:
     """Return the amplitudes of the two sines for a frame (n,) [unit of the model]; 0 if nothing is felt."""
     # The sums are fitted to transforms of 4096 samples.
     magnitude = np.abs(np.fft.rfft(frame)) * (4096 / len(frame))
@@ -132,13 +133,13 @@ def amplitudes(frame: Signal, sample_rate_hz: float) -> tuple[float, float]:
     return total * (1.0 - share), total * share
 
 
-def _loudness(f: Signal, magnitude: Signal) -> float:
+def _loudness(f: Floats, magnitude: Floats) -> float:
     level_db = 20.0 * np.log10(_AMPLITUDE * magnitude + 1e-12)
     contour_db = np.interp(f, _CONTOUR_HZ, _CONTOUR_DB)
     return max(0.0, _LOUDNESS * float(np.sum(level_db / contour_db)))
 
 
-def _roughness(f: Signal, magnitude: Signal) -> float:
+def _roughness(f: Floats, magnitude: Floats) -> float:
     level_db = 20.0 * np.log10(magnitude + 1e-12)
     peaks, _ = scipy.signal.find_peaks(level_db, height=level_db.max() + _PEAKS_DB)
     peaks = np.sort(peaks[np.argsort(-level_db[peaks], kind="stable")[:_MAX_PEAKS]])

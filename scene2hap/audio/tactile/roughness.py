@@ -9,15 +9,15 @@ buzz above the band of touch.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.audio.second_order import low_pass
-from scene2hap.audio.tactile.stages import Signal, SosStage, Stage
+from scene2hap.audio.tactile.stages import SosStage, Stage
+from scene2hap.common.arrays import Floats
 from scene2hap.compiled import compiled
 
 DEPTH = 0.5
-"""Depth of the modulation. It is felt as roughness (the least depth of a rhythm is 0.2, see `distinctness`). Its side
-bands are 12 dB below the bed, so that they do not dominate at frequencies to which touch is more sensitive."""
+"""Depth of the modulation. It is felt as roughness. Its side bands are 12 dB below the bed, so that they do not
+dominate at frequencies to which touch is more sensitive."""
 LINE_Q = 6.0
 """Quality of each of two band-passes in series that leave the rough component alone [-]: wide enough for the speed of
 an engine to waver by 5 %, narrow enough to leave out the next note but one."""
@@ -41,17 +41,17 @@ class Roughened(Stage):
         self._envelope = SosStage(low_pass(rough_hz / _SLOWER, sample_rate_hz))
         self._low = self._mean = np.empty(0)  # low component and its mean size, as long as the bed is late
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return the modulated bed, as late as the bed."""
         self._low = np.concatenate([self._low, self._line.run(x)])
         self._mean = np.concatenate([self._mean, self._envelope.run(np.abs(self._band.run(x)))])
         return self._modulated(self._bed.run(x))
 
-    def rest(self) -> Signal:
+    def rest(self) -> Floats:
         """Return the last samples of the bed."""
         return self._modulated(self._bed.rest())
 
-    def _modulated(self, bed: Signal) -> Signal:
+    def _modulated(self, bed: Floats) -> Floats:
         n = len(bed)
         rough = modulated(bed, self._low[:n], self._mean[:n], self._depth)
         self._low, self._mean = self._low[n:], self._mean[n:]
@@ -59,9 +59,7 @@ class Roughened(Stage):
 
 
 @compiled
-def modulated(
-    bed: NDArray[np.float64], low: NDArray[np.float64], mean: NDArray[np.float64], depth: float
-) -> NDArray[np.float64]:
+def modulated(bed: Floats, low: Floats, mean: Floats, depth: float) -> Floats:
     """Modulate a bed (n,) by a low component (n,), divided by its envelope. Returns: (n,).
 
     Parameters: mean : the low-passed absolute value of the component (n,), from which the envelope follows; depth : of

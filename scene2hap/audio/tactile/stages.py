@@ -8,23 +8,14 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from functools import lru_cache
 
 import numpy as np
-import scipy
-from numpy.typing import NDArray
 
 from scene2hap.audio.clip import Samples
-from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.sections import through_sections
-from scene2hap.audio.threshold import TACTILE_RANGE_HZ
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import AudioError
 
-Signal = NDArray[np.float64]
-
-LOWEST_FELT_HZ = TACTILE_RANGE_HZ[0]
-_RIPPLE_DB, _STOP_DB = 0.05, 70.0
-"""Ripple and stop band of the low-pass of `ShiftStage` [dB]."""
 _CACHED = 65_536
 """Samples per pass: passes that fit the processor's cache are twice as fast as one pass over a long sound."""
 
@@ -33,10 +24,10 @@ class Stage(ABC):
     """One step of a conversion."""
 
     @abstractmethod
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return the next samples (n,); a stage with latency holds some back."""
 
-    def rest(self) -> Signal:
+    def rest(self) -> Floats:
         """Return the samples that were held back; none without latency."""
         return np.empty(0)
 
@@ -70,7 +61,7 @@ class StageStream:
         """Return the samples that are still held back."""
         return self._clipped(self._chain.rest())
 
-    def _clipped(self, x: Signal) -> Samples:
+    def _clipped(self, x: Floats) -> Samples:
         if x.size and (size := np.abs(x)).max() > 1.0:
             self.n_clipped += int(np.count_nonzero(size > 1.0))
             x = np.clip(x, -1.0, 1.0)
@@ -83,7 +74,7 @@ class Chain(Stage):
     def __init__(self, stages: Sequence[Stage]) -> None:
         self.stages = stages
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return the next samples; stages with latency hold some back."""
         for stage in self.stages:
             if x.size == 0:
@@ -91,7 +82,7 @@ class Chain(Stage):
             x = stage.run(x)
         return x
 
-    def rest(self) -> Signal:
+    def rest(self) -> Floats:
         """Return the samples that all stages have held back."""
         left = np.empty(0)
         for stage in self.stages:
@@ -106,14 +97,14 @@ class InStep(Stage):
         self._stage, self._n_late = stage, n_late
         self._n_dropped = 0
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return as many samples as given, at first fewer."""
         y = self._stage.run(x)
         n = min(self._n_late - self._n_dropped, len(y))
         self._n_dropped += n
         return y[n:]
 
-    def rest(self) -> Signal:
+    def rest(self) -> Floats:
         """Return the samples that were held back, as if silence followed."""
         return self._stage.run(np.zeros(self._n_late))[self._n_late - self._n_dropped :]
 
@@ -126,10 +117,10 @@ class WholeSteps(Stage):
 
     def __init__(self, step: int) -> None:
         self._step = step
-        self._held: list[Signal] = []
+        self._held: list[Floats] = []
         self._n_held = 0
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return the steps that are complete now."""
         self._held.append(x)
         self._n_held += len(x)
@@ -141,7 +132,7 @@ class WholeSteps(Stage):
         self._held = [held[n:]]
         return held[:n]
 
-    def rest(self) -> Signal:
+    def rest(self) -> Floats:
         """Return the samples of the incomplete step."""
         return np.concatenate([np.empty(0), *self._held])
 
@@ -149,16 +140,16 @@ class WholeSteps(Stage):
 class SosStage(Stage):
     """A filter of second-order sections (n_sections, 6) with carried state."""
 
-    def __init__(self, sections: Signal) -> None:
+    def __init__(self, sections: Floats) -> None:
         self.sections = sections
-        self.state: NDArray[np.float64] = np.zeros((len(sections), 2))
+        self.state: Floats = np.zeros((len(sections), 2))
         self._rows = self.state[:, None]  # as `through_sections` needs it
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return as many samples as given."""
         if x.size == 0:
             return x
-        y: Signal = through_sections(self.sections, x[None], self._rows)[0]
+        y: Floats = through_sections(self.sections, x[None], self._rows)[0]
         return y
 
 
@@ -168,58 +159,6 @@ class Scaled(Stage):
     def __init__(self, gain: float) -> None:
         self._gain = gain
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         """Return as many samples as given."""
         return self._gain * x
-
-
-class ShiftStage(Stage):
-    """Single-sideband modulation: moves a band by a number of hertz and keeps its envelope.
-
-    With c the middle of the band, w half its width and h a low-pass with cut-off w:
-
-        z = h * (x exp(-i 2 pi c t))        y = 2 Re(z exp(i 2 pi (c + shift) t))
-
-    The mirrored band lies 2 c away and is removed by h. The lower edge of the band is raised if components would end
-    below 10 Hz, or fold at 0 Hz into false tones. Differences between frequencies are kept, so that beats and envelopes
-    do not change. Ratios of harmonics change. The low-pass delays a narrow band by `n_late` samples, 10 to 40 ms.
-    Source: D. K. Weaver, "A third method of generation and detection of single-sideband signals", Proc. IRE 44, 1956.
-    """
-
-    _WIDEST, _NARROWEST = 0.3, 0.08
-    """Bounds of the transition band of h, as shares of w. Elliptic filters of order 8 to 10 reach them."""
-
-    def __init__(self, low_hz: float, high_hz: float, shift_hz: float, sample_rate_hz: float) -> None:
-        lowest_hz = max(0.0, LOWEST_FELT_HZ - shift_hz)
-        low_hz = min(max(low_hz, lowest_hz + self._NARROWEST * 0.5 * (high_hz - low_hz)), 0.99 * high_hz)
-        middle_hz, width = 0.5 * (low_hz + high_hz), min(0.5 * (high_hz - low_hz), 0.45 * sample_rate_hz)
-        stop = width + min(max(low_hz - lowest_hz, self._NARROWEST * width), self._WIDEST * width)
-        self._down = Oscillator(middle_hz, sample_rate_hz)
-        self._up = Oscillator(middle_hz + shift_hz, sample_rate_hz)
-        self._sections = _steep_low_pass(width, min(stop, 0.49 * sample_rate_hz), sample_rate_hz)
-        self._state = np.zeros((len(self._sections), 2, 2))
-        self._position = 0
-        self._slow = 2.0 * np.pi * 0.01 * width / sample_rate_hz  # [rad/sample], where the delay is as at 0 Hz
-
-    @property
-    def n_late(self) -> int:
-        """Delay of the middle of the band [samples], from the phase of the low-pass at a small frequency."""
-        _, (at_zero, near) = scipy.signal.sosfreqz(self._sections, [0.0, self._slow])
-        return round(float(-np.angle(near / at_zero)) / self._slow)
-
-    def run(self, x: Signal) -> Signal:
-        """Return as many samples as given."""
-        if x.size == 0:
-            return x
-        z = through_sections(self._sections, self._down.times(x, self._position), self._state)
-        # `_down` stands for exp(-i...), hence the plus sign in the real part of the product.
-        y = self._up.joined(z, self._position)
-        self._position += len(x)
-        return np.asarray(2.0 * y)
-
-
-@lru_cache(maxsize=8)
-def _steep_low_pass(pass_hz: float, stop_hz: float, sample_rate_hz: float) -> Signal:
-    """Return an elliptic low-pass (n_sections, 6). The streams of a sound's channels share it."""
-    order, _ = scipy.signal.ellipord(pass_hz, stop_hz, _RIPPLE_DB, _STOP_DB, fs=sample_rate_hz)
-    return np.asarray(scipy.signal.ellip(order, _RIPPLE_DB, _STOP_DB, pass_hz, fs=sample_rate_hz, output="sos"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from scene2hap.audio.files import encoded
+from scene2hap.audio.encoding import encoded
 from scene2hap.export.protocol import Exported
 from scene2hap.export.track import Track
 

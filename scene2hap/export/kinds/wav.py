@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scene2hap.audio.files import encoded
+from scene2hap.audio.encoding import encoded
 from scene2hap.common import checks
 from scene2hap.errors import ConfigError
 from scene2hap.export.protocol import Exported

@@ -18,8 +18,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from scene2hap.audio.actuator_range import nearest_felt_hz
 from scene2hap.audio.actuators import is_flat
-from scene2hap.audio.levels import TACTILE_HEADROOM_DB, drive_db, nearest_felt_hz
+from scene2hap.audio.levels import TACTILE_HEADROOM_DB, drive_db
 from scene2hap.audio.threshold import NOTICED_DB, TACTILE_RANGE_HZ, threshold_db
 from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import clear_attributes

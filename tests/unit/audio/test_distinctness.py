@@ -11,7 +11,7 @@ sys.path.insert(0, str(Path(__file__).parents[3] / "benchmarks"))
 
 from percepts import Percept, difference, distinctness, percept_of
 
-from scene2hap.audio.distinctness import frequency_jnds
+from scene2hap.audio.threshold import frequency_jnds
 from scene2hap.errors import AudioError
 
 RATE = 8000

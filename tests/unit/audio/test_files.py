@@ -12,7 +12,8 @@ import soundfile
 
 from scene2hap import audio
 from scene2hap.audio.clip import Credit
-from scene2hap.audio.files import READABLE, SUFFIXES, encoded, read_clip, written_whole
+from scene2hap.audio.encoding import encoded
+from scene2hap.audio.files import READABLE, SUFFIXES, read_clip, written_whole
 from scene2hap.errors import AudioError
 
 RATE = 8000

@@ -9,9 +9,9 @@ import pytest
 import soundfile
 
 from scene2hap import AudioClip
-from scene2hap.audio.files import encoded, read_clip
-from scene2hap.audio.loops import loop_pair, middle_of
-from scene2hap.audio.loops.marked import LoopWarning
+from scene2hap.audio.encoding import encoded
+from scene2hap.audio.files import read_clip
+from scene2hap.audio.loops import LoopWarning, loop_pair, middle_of
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.recorded_runs import recorded_runs
 from scene2hap.audio.select import explain_choice

@@ -10,12 +10,12 @@ from others import RECORDINGS, there
 from own_sounds import OWN_SOUNDS
 from scene2hap.audio.actuators import actuator_profile
 from scene2hap.audio.clip import AudioClip, Credit, Samples
-from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB
 from scene2hap.audio.loops import loop_pair, middle_of
 from scene2hap.audio.loops.seam_search import MAX_LOOP_S, find_seam
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.scene_loops import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.seam import Seam, apply_seam
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.lowpass import Lowpass

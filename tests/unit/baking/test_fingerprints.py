@@ -13,9 +13,9 @@ import soundfile
 
 from scene2hap import AudioClip, BakeConfig, Credit, HapticBundle, SceneSnapshot, VibrationDescription, bake, rebake
 from scene2hap.audio.actuators import ACTUATORS
-from scene2hap.audio.felt_loop import Plan
 from scene2hap.audio.levels import felt_level_db
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.scene_loops import Plan
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.tactile.adaptive import Adaptive
 from scene2hap.audio.tactile.stages import StageStream
@@ -453,7 +453,7 @@ def test_copies_are_synthesized_once(monkeypatch: pytest.MonkeyPatch) -> None:
     assert len({id(loop.tactile) for loop in loops}) == 1
 
 
-@pytest.mark.filterwarnings("ignore::scene2hap.audio.loops.marked.LoopWarning")  # no seam would be sought there
+@pytest.mark.filterwarnings("ignore::scene2hap.audio.loops.LoopWarning")  # no seam would be sought there
 def test_a_marked_loop_is_the_loop_and_stays_it_in_the_bundle(tmp_path: Path) -> None:
     x = own_tone().samples
     marked = AudioClip(x, RATE, Credit("mine", "me", "CC0"), loop=(4100, 12_000))

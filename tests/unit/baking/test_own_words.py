@@ -9,7 +9,7 @@ import pytest
 
 from own_sounds import RATE_HZ
 from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake, rebake
-from scene2hap.audio.files import encoded
+from scene2hap.audio.encoding import encoded
 from scene2hap.baking.own_words import own_word
 
 

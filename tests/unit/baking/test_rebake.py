@@ -24,7 +24,7 @@ from scene2hap import (
     materials,
     rebake,
 )
-from scene2hap.audio.haptic_loop import LevelWarning
+from scene2hap.audio.sensation import LevelWarning
 from scene2hap.bundle import BundleWarning
 from scene2hap.errors import BundleError, SceneError, UnknownObject
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial

@@ -25,7 +25,7 @@ from scene2hap import (
     bake,
     rebake,
 )
-from scene2hap.audio.haptic_loop import Sensation
+from scene2hap.audio.sensation import Sensation
 from scene2hap.bundle import BundleWarning
 from scene2hap.clips.haptic_clip import Curve, Transient
 from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError, CallError, UnknownObject

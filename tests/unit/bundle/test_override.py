@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from scene2hap import AudioClip, Credit, HapticBundle, HapticSession, Material, Touch, materials
-from scene2hap.audio.files import encoded
+from scene2hap.audio.encoding import encoded
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.errors import AudioError, BundleError, MaterialError, UnknownMaterial, UnknownObject
 from scenes import RATE, table_with_two_phones

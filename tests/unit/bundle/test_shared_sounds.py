@@ -13,7 +13,8 @@ import pytest
 from files_of import files_of
 from scene2hap import AudioClip, HapticBundle
 from scene2hap.audio.conversion import convert
-from scene2hap.audio.files import encoded, read_clip
+from scene2hap.audio.encoding import encoded
+from scene2hap.audio.files import read_clip
 from scene2hap.bundle.sounds import file_stems
 from scene2hap.errors import BundleError
 from scene2hap.export import export_bundle

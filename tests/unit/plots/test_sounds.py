@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from scene2hap import AudioClip, Credit, HapticLoop
-from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.levels import threshold_db
 from scene2hap.audio.plots import component_levels_db
+from scene2hap.audio.scene_loops import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.cli.tables import place_of
 from scene2hap.common.plots import plain, set_title

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from scene2hap import Contact, HapticBundle, HapticSession, Pose, SceneSnapshot, Touch, materials
-from scene2hap.audio.haptic_loop import Sensation
+from scene2hap.audio.sensation import Sensation
 from scene2hap.errors import SessionError
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.paths.live_law import LivePaths

@@ -5,7 +5,8 @@ from dataclasses import replace
 import pytest
 
 from scene2hap import HapticBundle, HapticSession, Pose, Touch
-from scene2hap.audio.haptic_loop import HapticLoop, Sensation
+from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.audio.sensation import Sensation
 from scene2hap.errors import SessionError
 from scenes import box, haptics, scene, tone_loop
 

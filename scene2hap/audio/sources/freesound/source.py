@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.select import MIN_DURATION_S
-from scene2hap.audio.sources.candidates import MAX_CANDIDATES, how_many
-from scene2hap.audio.sources.disk_cache import MAX_CLIP_S, Store, digest, is_long_enough
+from scene2hap.audio.sources.candidates import MAX_CANDIDATES, how_many, is_long_enough
+from scene2hap.audio.sources.disk_cache import MAX_CLIP_S, Store, digest
 from scene2hap.audio.sources.freesound import licences as cc
 from scene2hap.audio.sources.freesound.queries import queries_for
 from scene2hap.audio.sources.freesound.service import Service

@@ -11,7 +11,6 @@ from scene2hap.audio.sources.synth.signals import (
     DURATION_S,
     N_SAMPLES,
     SAMPLE_RATE_HZ,
-    Signal,
     Take,
     noise,
     partials,
@@ -21,6 +20,7 @@ from scene2hap.audio.sources.synth.signals import (
     unit_peak,
     unit_rms,
 )
+from scene2hap.common.arrays import Floats
 
 _BUBBLE_CLASSES = 10
 _BUBBLE_CYCLES = 3.0
@@ -29,7 +29,7 @@ _BUBBLE_SPREAD = 0.3
 equally frequent, the frequency at which a kettle was felt was random within two octaves."""
 
 
-def bubbles(take: Take, *, largest_hz: float, smallest_hz: float, per_second: float = 600.0) -> Signal:
+def bubbles(take: Take, *, largest_hz: float, smallest_hz: float, per_second: float = 600.0) -> Floats:
     """Boiling or sizzling: random bubbles of many sizes, each ringing at its own pitch, more of them at a high drive.
 
     A bubble of radius R rings at 3.26 / R [Hz] (Minnaert, Phil. Mag. 16, 1933): 100 Hz for 33 mm, 400 Hz for 8 mm.
@@ -48,7 +48,7 @@ def bubbles(take: Take, *, largest_hz: float, smallest_hz: float, per_second: fl
 
 def blows(
     take: Take, *, per_second: float, body_hz: float, decay_s: float, click_hz: float = 1200.0, click: float = 0.2
-) -> Signal:
+) -> Floats:
     """Equal blows on a body that rings at its own pitch: the ticks of a clock, the strokes of a jackhammer."""
     n = round(per_second * DURATION_S)
     at = (np.arange(n) + 0.3) / per_second
@@ -58,7 +58,7 @@ def blows(
     return body + click * (0.5 + take.drive) * edge
 
 
-def buzzer(take: Take, *, pitch_hz: float, on_s: float = 0.0, off_s: float = 0.0, on_mains: bool = False) -> Signal:
+def buzzer(take: Take, *, pitch_hz: float, on_s: float = 0.0, off_s: float = 0.0, on_mains: bool = False) -> Floats:
     """An armature that hits its stop once per cycle, for `on_s` and `off_s` seconds in turn; always on without them.
 
     One `on_mains` has `pitch_hz` at a mains frequency of 50 Hz.
@@ -76,7 +76,7 @@ def buzzer(take: Take, *, pitch_hz: float, on_s: float = 0.0, off_s: float = 0.0
 
 def telephone_bell(
     take: Take, *, ringing_hz: float = 25.0, case_hz: float = 230.0, on_s: float = 1.0, off_s: float = 2.0
-) -> Signal:
+) -> Floats:
     """An old telephone: a clapper that shakes the case at `ringing_hz`, since one of its two gongs is nearer.
 
     The gongs ring far above the range of touch, the case at `case_hz`. Exchanges of Japan ring for one second in three
@@ -89,7 +89,7 @@ def telephone_bell(
     return case + 0.15 * (0.5 + take.drive) * gongs
 
 
-def music(take: Take, *, beats_per_minute: float = 120.0) -> Signal:
+def music(take: Take, *, beats_per_minute: float = 120.0) -> Floats:
     """A loudspeaker that plays: a bass line of four notes, one per beat, and a drum under every second beat."""
     beat_s = 60.0 / beats_per_minute
     root_hz = take.about(65.4, 0.05)

@@ -13,7 +13,6 @@ import numpy as np
 from scene2hap.audio.sources.synth.rotating import fan
 from scene2hap.audio.sources.synth.signals import (
     DURATION_S,
-    Signal,
     Take,
     noise,
     partials,
@@ -23,9 +22,10 @@ from scene2hap.audio.sources.synth.signals import (
     unit_rms,
     wander,
 )
+from scene2hap.common.arrays import Floats
 
 
-def mains_hum(take: Take) -> Signal:
+def mains_hum(take: Take) -> Floats:
     """Magnets and cores on the mains: the force on iron follows the square of the field, hence twice its frequency."""
     phi = phase(2.0 * take.mains_hz)
     hum = partials(phi, take.roll_off(8), take.rng)
@@ -37,7 +37,7 @@ def mains_hum(take: Take) -> Signal:
     )
 
 
-def microwave(take: Take) -> Signal:
+def microwave(take: Take) -> Floats:
     """A microwave oven: its transformer, the fan that cools it, and a turntable and a stirrer that load both."""
     cooling = fan(take, shaft_hz=44.0, blades=5, rotor=0.4, blade=0.5, flow=0.5)
     # A stirrer turns in the field and loads the magnetron; the load depends on the oven's content.
@@ -46,7 +46,7 @@ def microwave(take: Take) -> Signal:
     return (unit_rms(mains_hum(take)) + 0.5 * unit_rms(cooling)) * turntable * stirrer
 
 
-def vibration_motor(take: Take, *, motor_hz: float = 182.0) -> Signal:
+def vibration_motor(take: Take, *, motor_hz: float = 182.0) -> Floats:
     """An eccentric mass on a small motor: nearly a sine; its speed wavers as the hand or table under it yields."""
     phi = phase(take.speed_hz(motor_hz) * (1.0 + 0.004 * wander(take.rng, 4.0)))
     return partials(phi, [1.0, 0.1 + 0.15 * take.drive, 0.06], take.rng) * (
@@ -62,7 +62,7 @@ def ringing_motor(
     off_s: float = 0.5,
     spin_up_s: float = 0.05,
     spin_down_s: float = 0.08,
-) -> Signal:
+) -> Floats:
     """A vibration motor that is switched on and off, so that its speed and its force rise and fall.
 
     A small DC motor follows its voltage as w(t) = 1 - exp(-t / spin_up_s), as a share of full speed, and coasts down as
@@ -78,7 +78,7 @@ def ringing_motor(
 
 def reciprocating(
     take: Take, *, stroke_hz: float, rattle: float = 0.1, speed: Callable[[Take, float], float] = Take.shaft_hz
-) -> Signal:
+) -> Floats:
     """A reciprocating head, blade or piston, which rattles in its guide at both ends of the stroke.
 
     `speed` is the law of its drive: any motor, an induction motor (`Take.mains_speed_hz`), or a magnet on the mains
@@ -92,7 +92,7 @@ def reciprocating(
 
 def combustion(
     take: Take, *, firing_hz: float, loud_order: int = 2, revs: float = 0.0, rev_s: float = 2.5, roar: float = 0.0
-) -> Signal:
+) -> Floats:
     """A piston engine: irregular firings through an exhaust, and a crankshaft.
 
     `loud_order` is the multiple of the firing rate at which body and exhaust resonate. For a four-stroke engine of one
@@ -116,7 +116,7 @@ def combustion(
     return unit_rms(exhaust) + 0.4 * unit_rms(crank) + (0.15 + 0.3 * take.drive) * intake
 
 
-def _throttle(take: Take, n_firings: int, revs: float, rev_s: float) -> tuple[Signal, Signal]:
+def _throttle(take: Take, n_firings: int, revs: float, rev_s: float) -> tuple[Floats, Floats]:
     """Return the speed relative to its mean (n,) [-], and the number of firings until each sample (n,) [-]."""
     n_revs = max(1, round(DURATION_S / rev_s))
     turn = 2.0 * np.pi * (n_revs * times() / DURATION_S + take.rng.uniform())

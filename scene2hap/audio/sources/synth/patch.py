@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scene2hap.audio.sources.synth.signals import Signal, Take, phase, wander
+from scene2hap.audio.sources.synth.signals import Take, phase, wander
+from scene2hap.common.arrays import Floats
 
 SIZE_POWER = 0.5
 SIZE_FACTOR_BOUNDS = (0.75, 4.0 / 3.0)
@@ -32,7 +33,7 @@ class Rhythm:
     wavers: float = 0.03
     on_mains: bool = False
 
-    def applied(self, y: Signal, take: Take) -> Signal:
+    def applied(self, y: Floats, take: Take) -> Floats:
         """Return a voice with this load."""
         nominal_hz = take.magnet_hz(self.rate_hz) if self.on_mains else take.about(self.rate_hz)
         rate = nominal_hz * (1.0 + self.wavers * wander(take.rng))
@@ -47,7 +48,7 @@ class Patch:
     `rhythm` is the periodic load of the whole voice, None for none.
     """
 
-    voice: Callable[[Take], Signal]
+    voice: Callable[[Take], Floats]
     reference_m: float | None = None
     rhythm: Rhythm | None = None
 

@@ -10,7 +10,6 @@ import numpy as np
 
 from scene2hap.audio.sources.synth.signals import (
     DURATION_S,
-    Signal,
     Take,
     noise,
     partials,
@@ -20,9 +19,10 @@ from scene2hap.audio.sources.synth.signals import (
     unit_rms,
     wander,
 )
+from scene2hap.common.arrays import Floats
 
 
-def motor(take: Take, *, shaft_hz: float = 48.0) -> Signal:
+def motor(take: Take, *, shaft_hz: float = 48.0) -> Floats:
     """An electric motor: shaft, harmonics, and a weak magnetic pull at twice the mains frequency."""
     phi = phase(take.mains_speed_hz(shaft_hz) * (1.0 + 0.003 * wander(take.rng)))
     shaft = partials(phi, take.roll_off(8), take.rng)
@@ -34,7 +34,7 @@ def motor(take: Take, *, shaft_hz: float = 48.0) -> Signal:
     )
 
 
-def compressor(take: Take, *, slip: float = 0.018) -> Signal:
+def compressor(take: Take, *, slip: float = 0.018) -> Floats:
     """A refrigerator's piston compressor: a two-pole induction motor, slightly slower than the mains frequency.
 
     Its second order beats slowly against the magnetic pull at twice the mains frequency. Gas and oil load it unevenly.
@@ -49,7 +49,7 @@ def compressor(take: Take, *, slip: float = 0.018) -> Signal:
 
 def fan(
     take: Take, *, shaft_hz: float, blades: int, rotor: float = 1.0, blade: float = 0.5, flow: float = 0.5
-) -> Signal:
+) -> Floats:
     """A fan: rotor imbalance once per turn, blades passing, and the broadband noise of the flow, louder when driven."""
     phi = phase(take.speed_hz(shaft_hz) * (1.0 + 0.003 * wander(take.rng)))
     turns = partials(phi, [1.0, 0.25, 0.11, 0.06], take.rng)
@@ -58,7 +58,7 @@ def fan(
     return rotor * unit_rms(turns) + blade * unit_rms(passing) + flow * (0.6 + 0.6 * take.drive) * breeze
 
 
-def spinner(take: Take, *, drum_hz: float = 18.5, belt_ratio: float = 11.5) -> Signal:
+def spinner(take: Take, *, drum_hz: float = 18.5, belt_ratio: float = 11.5) -> Floats:
     """A washing machine at spin: an unbalanced drum, and its motor, which the belt turns `belt_ratio` times as fast.
 
     The laundry loads the motor once per turn of the drum; the belt revolves about every second turn.
@@ -74,7 +74,7 @@ def spinner(take: Take, *, drum_hz: float = 18.5, belt_ratio: float = 11.5) -> S
     )
 
 
-def washing(take: Take, *, drum_hz: float = 0.85, slosh: float = 0.5, thump_hz: float = 60.0) -> Signal:
+def washing(take: Take, *, drum_hz: float = 0.85, slosh: float = 0.5, thump_hz: float = 60.0) -> Floats:
     """A washing machine before it spins: a motor hums at twice the mains frequency, and a drum lifts the laundry.
 
     The laundry falls once per turn of the drum, on a tub that rings at `thump_hz`; `slosh` is the level of the water.
@@ -88,7 +88,7 @@ def washing(take: Take, *, drum_hz: float = 0.85, slosh: float = 0.5, thump_hz: 
     return unit_rms(hum) * load + 0.35 * unit_rms(falls) + slosh * (0.4 + 0.4 * take.drive) * water
 
 
-def pump(take: Take, *, shaft_hz: float = 48.0, vanes: int = 6) -> Signal:
+def pump(take: Take, *, shaft_hz: float = 48.0, vanes: int = 6) -> Floats:
     """A centrifugal pump: pressure pulses as its vanes pass the outlet, shaft imbalance, and rushing water."""
     phi = phase(take.mains_speed_hz(shaft_hz) * (1.0 + 0.002 * wander(take.rng)))
     pulses = partials(vanes * phi, take.roll_off(4), take.rng)
@@ -98,7 +98,7 @@ def pump(take: Take, *, shaft_hz: float = 48.0, vanes: int = 6) -> Signal:
 
 def power_tool(
     take: Take, *, motor_hz: float, spindle_hz: float, spindle: float = 0.4, teeth: int = 7, segments: int = 24
-) -> Signal:
+) -> Floats:
     """A universal motor behind a gear: motor and spindle imbalance, gear mesh (teeth) and commutator (segments).
 
     The cut material loads the motor twice per turn of the spindle. `spindle` is the spindle's level; above 1 it

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Signal = NDArray[np.float64]
+from scene2hap.common.arrays import Floats
 
 SAMPLE_RATE_HZ = 48_000
 DURATION_S = 5.0
@@ -57,23 +57,23 @@ class Take:
         """
         return nominal_hz * self.mains_hz / REFERENCE_MAINS_HZ
 
-    def roll_off(self, n_partials: int, steeper_by: float = 0.0) -> Signal:
+    def roll_off(self, n_partials: int, steeper_by: float = 0.0) -> Floats:
         """Return amplitudes k^-slope (n_partials,). The slope is 2.2 when idling and 1.2 at full drive; assumed."""
         return np.asarray(np.arange(1.0, n_partials + 1) ** -(2.2 - self.drive + steeper_by))
 
 
-def times() -> Signal:
+def times() -> Floats:
     """Return the time of each sample (n,) [s]."""
     return np.arange(N_SAMPLES) / SAMPLE_RATE_HZ
 
 
-def phase(frequency_hz: ArrayLike) -> Signal:
+def phase(frequency_hz: ArrayLike) -> Floats:
     """Return the phase (n,) [rad] of an oscillator at a constant or varying frequency, phi = 2 pi int f dt."""
     f = np.broadcast_to(np.asarray(frequency_hz, dtype=np.float64), N_SAMPLES)
     return np.asarray(2.0 * np.pi * (np.cumsum(f) - f[0]) / SAMPLE_RATE_HZ)
 
 
-def partials(phi: Signal, amplitudes: Sequence[float] | Signal, rng: np.random.Generator | None = None) -> Signal:
+def partials(phi: Floats, amplitudes: Sequence[float] | Floats, rng: np.random.Generator | None = None) -> Floats:
     """Return sum_k a_k cos(k phi + phi_k), k = 1, 2, ...; random phases with an `rng`, a pulse train without."""
     offsets = np.zeros(len(amplitudes)) if rng is None else rng.uniform(0.0, 2.0 * np.pi, len(amplitudes))
     # Each power of a phasor costs one multiplication, each cosine ten.
@@ -87,7 +87,7 @@ def partials(phi: Signal, amplitudes: Sequence[float] | Signal, rng: np.random.G
     return y
 
 
-def wander(rng: np.random.Generator, fastest_hz: float = 1.0) -> Signal:
+def wander(rng: np.random.Generator, fastest_hz: float = 1.0) -> Floats:
     """Return a slow random variation (n,) within -1..1: eight sinusoids up to `fastest_hz`, at most 5 Hz."""
     knots = np.linspace(0.0, DURATION_S, 1001)
     f = rng.uniform(0.1 * fastest_hz, fastest_hz, (8, 1))
@@ -95,7 +95,7 @@ def wander(rng: np.random.Generator, fastest_hz: float = 1.0) -> Signal:
     return np.asarray(np.interp(times(), knots, np.cos(2.0 * np.pi * f * knots + offsets).mean(axis=0)))
 
 
-def noise(rng: np.random.Generator, low_hz: float, high_hz: float, tilt_db_per_octave: float = 0.0) -> Signal:
+def noise(rng: np.random.Generator, low_hz: float, high_hz: float, tilt_db_per_octave: float = 0.0) -> Floats:
     """Return noise (n,) of unit RMS between two frequencies, whose level falls or rises from octave to octave."""
     f = np.fft.rfftfreq(N_SAMPLES, 1.0 / SAMPLE_RATE_HZ)
     in_band = (f >= low_hz) & (f <= high_hz)
@@ -104,7 +104,7 @@ def noise(rng: np.random.Generator, low_hz: float, high_hz: float, tilt_db_per_o
     return unit_rms(scipy.fft.irfft(weight * scipy.fft.rfft(rng.standard_normal(N_SAMPLES)), N_SAMPLES))
 
 
-def ringing(times_s: ArrayLike, strengths: ArrayLike, frequency_hz: float, decay_s: float) -> Signal:
+def ringing(times_s: ArrayLike, strengths: ArrayLike, frequency_hz: float, decay_s: float) -> Floats:
     """Return strokes at given times, each A exp(-t / decay) sin(2 pi f t); their end continues at the beginning."""
     at = np.asarray(times_s, dtype=np.float64) * SAMPLE_RATE_HZ
     strokes = np.bincount(
@@ -115,11 +115,11 @@ def ringing(times_s: ArrayLike, strengths: ArrayLike, frequency_hz: float, decay
     return scipy.fft.irfft(scipy.fft.rfft(strokes) * scipy.fft.rfft(response), N_SAMPLES)
 
 
-def unit_rms(y: Signal) -> Signal:
+def unit_rms(y: Floats) -> Floats:
     """Return the signal with an RMS of 1, so that voices can mix parts by their share."""
     return np.asarray(y / np.sqrt(np.mean(y**2)))
 
 
-def unit_peak(y: Signal) -> Signal:
+def unit_peak(y: Floats) -> Floats:
     """Return the signal with a peak of 1."""
     return np.asarray(y / np.abs(y).max())

@@ -12,7 +12,6 @@ from scene2hap.audio.sources.synth.signals import (
     DURATION_S,
     N_SAMPLES,
     SAMPLE_RATE_HZ,
-    Signal,
     Take,
     noise,
     partials,
@@ -22,6 +21,7 @@ from scene2hap.audio.sources.synth.signals import (
     unit_rms,
     wander,
 )
+from scene2hap.common.arrays import Floats
 
 
 def geared(
@@ -34,7 +34,7 @@ def geared(
     thump_hz: float = 0.0,
     slack: float = 0.05,
     on_mains: bool = False,
-) -> Signal:
+) -> Floats:
     """An electric motor that drives slower parts by a gear or a belt: paddles, rollers, chains, drums, needles.
 
     An induction motor `on_mains` turns at `motor_hz` at a mains frequency of 50 Hz.
@@ -57,7 +57,7 @@ def geared(
     return y
 
 
-def stepper(take: Take, *, slowest_hz: float = 90.0, fastest_hz: float = 260.0, move_s: float = 0.4) -> Signal:
+def stepper(take: Take, *, slowest_hz: float = 90.0, fastest_hz: float = 260.0, move_s: float = 0.4) -> Floats:
     """Stepper motors, as in printers: each move has its own speed, and a step is a jerk, hence a tone at the step rate.
 
     Speeds change within some 20 ms, as controllers ramp them.
@@ -74,7 +74,7 @@ def stepper(take: Take, *, slowest_hz: float = 90.0, fastest_hz: float = 260.0, 
     return unit_rms(partials(phase(smooth), take.roll_off(5), take.rng)) + 0.1 * noise(take.rng, 60.0, 1500.0, -3.0)
 
 
-def rotor_slap(take: Take, *, rotor_hz: float = 6.4, blades: int = 4, body_hz: float = 63.0) -> Signal:
+def rotor_slap(take: Take, *, rotor_hz: float = 6.4, blades: int = 4, body_hz: float = 63.0) -> Floats:
     """A helicopter: a slap as each blade passes, at blades times rotor speed; one blade runs slightly out of track."""
     rate_hz = blades * take.speed_hz(rotor_hz)
     n = round(rate_hz * DURATION_S / blades) * blades
@@ -85,7 +85,7 @@ def rotor_slap(take: Take, *, rotor_hz: float = 6.4, blades: int = 4, body_hz: f
     return unit_rms(slap) + 0.15 * unit_rms(turbine) + (0.1 + 0.1 * take.drive) * noise(take.rng, 60.0, 1500.0, -3.0)
 
 
-def rolling(take: Take, *, passing_hz: float = 50.0) -> Signal:
+def rolling(take: Take, *, passing_hz: float = 50.0) -> Floats:
     """Wheels on a track: the rumble of rough surfaces, and a tone of passing supports, at the rate speed / spacing.
 
     A train at 30 m/s over sleepers 0.6 m apart gives 50 Hz.
@@ -95,7 +95,7 @@ def rolling(take: Take, *, passing_hz: float = 50.0) -> Signal:
     return (0.6 + 0.8 * take.drive) * noise(take.rng, 40.0, 1500.0, -5.0) + unit_rms(passing)
 
 
-def jet(take: Take, *, low_hz: float = 50.0, tilt_db: float = -5.0, pump: float = 0.0) -> Signal:
+def jet(take: Take, *, low_hz: float = 50.0, tilt_db: float = -5.0, pump: float = 0.0) -> Floats:
     """Steam, paint or water through a nozzle: turbulent noise that changes by `tilt_db` from octave to octave.
 
     `pump` is the level of a magnet pump on the mains, which strikes once per cycle, since a diode passes only one half

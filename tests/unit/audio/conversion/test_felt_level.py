@@ -14,7 +14,7 @@ RATE = 4000
 def level_db(samples: np.ndarray, block: int) -> float:
     heard = FeltLevel(RATE, samples.shape[1], ActuatorProfile())
     for start in range(0, len(samples), block):
-        heard.hear(samples[start : start + block].astype(np.float32))
+        heard.add(samples[start : start + block].astype(np.float32))
     return heard.level_db()
 
 
@@ -45,7 +45,7 @@ def test_felt_level_can_be_read_while_blocks_are_added() -> None:
     rng = np.random.default_rng(0)
     heard, parts = FeltLevel(RATE, 1, ActuatorProfile()), rng.normal(size=(5, 3000, 1)).astype(np.float32)
     for n, part in enumerate(parts, 1):
-        heard.hear(part)
+        heard.add(part)
         assert heard.level_db() == heard.level_db()
         # Processors add the components of one or several pieces in another order.
         assert heard.level_db() == pytest.approx(level_db(np.concatenate(parts[:n]), 1234), abs=1e-9)

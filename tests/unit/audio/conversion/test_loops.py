@@ -10,7 +10,7 @@ import pytest
 import soundfile
 
 from scene2hap.audio import convert
-from scene2hap.audio.files import encoded
+from scene2hap.audio.encoding import encoded
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.errors import AudioError, ConfigError
 
@@ -52,7 +52,7 @@ def steepest(samples: np.ndarray) -> tuple[float, float]:
     return float(bends[: n - 3].max()), float(bends[n - 3 : n].max())
 
 
-@pytest.mark.filterwarnings("ignore::scene2hap.audio.haptic_loop.LevelWarning")
+@pytest.mark.filterwarnings("ignore::scene2hap.audio.sensation.LevelWarning")
 @pytest.mark.parametrize("kind", CONVERTERS.builtins)
 @pytest.mark.parametrize("actuator", ["flat", "lra"])
 def test_a_converted_loop_repeats_without_a_gap(tmp_path: Path, kind: str, actuator: str) -> None:

@@ -29,6 +29,6 @@ def test_four_or_more_channels_of_pieces_are_transformed_at_once(
         sound = np.choose(np.minimum((t * len(tones) / seconds).astype(int), len(tones) - 1), tones)
         meter = Meter(RATE, channels, n_frames=len(t))
         for block in np.array_split(np.tile(sound[:, None], channels).astype(np.float32), 7):
-            meter.hear(block)
+            meter.add(block)
         assert meter.dominant_frequency_hz() == pytest.approx(100 + 50 * loudest, abs=0.5)
         assert len(calls) == n_calls

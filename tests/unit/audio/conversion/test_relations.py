@@ -15,7 +15,7 @@ from scipy.signal import hilbert
 
 from scene2hap import audio
 
-pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.audio.haptic_loop.LevelWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.audio.sensation.LevelWarning")
 
 RATE = 48_000
 BEGIN_S, GAP_S, LASTS_S = 0.3, 0.45, 1.3

@@ -10,7 +10,7 @@ import pytest
 import soundfile
 
 from scene2hap.audio.clip import Credit
-from scene2hap.audio.files import encoded
+from scene2hap.audio.encoding import encoded
 from scene2hap.audio.protocol import AudioSource
 from scene2hap.audio.sources import SOURCES
 from scene2hap.audio.sources.library import FolderLibrary, ShortSound, UnreadableSound

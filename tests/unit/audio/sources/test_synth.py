@@ -20,9 +20,10 @@ from scene2hap.audio.select import select_clip
 from scene2hap.audio.sources import SOURCES
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.sources.synth.patch import Patch
-from scene2hap.audio.sources.synth.signals import SAMPLE_RATE_HZ, Signal, Take
+from scene2hap.audio.sources.synth.signals import SAMPLE_RATE_HZ, Take
 from scene2hap.audio.sources.synth.synthesizer import patch_for
 from scene2hap.audio.sources.synth.table import MOTOR, TABLE
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import AudioError, ConfigError
 from scene2hap.haptics import VibrationDescription
 
@@ -53,7 +54,7 @@ def make(category: str, keywords: str, **changes: object) -> AudioClip:
     return clip
 
 
-def strongest_hz(y: Signal, above_hz: float = 10.0) -> float:
+def strongest_hz(y: Floats, above_hz: float = 10.0) -> float:
     """The frequency of the largest bin of a Hann-windowed spectrum, to the nearest 0.2 Hz."""
     magnitude = np.abs(np.fft.rfft(y * np.hanning(len(y))))
     frequencies = np.fft.rfftfreq(len(y), 1 / SAMPLE_RATE_HZ)
@@ -67,7 +68,7 @@ def mean_hz(clip: AudioClip) -> float:
 
 
 @cache
-def played(patch: Patch) -> Signal:
+def played(patch: Patch) -> Floats:
     return patch.voice(Take(np.random.default_rng(11), 0.5))
 
 
@@ -323,7 +324,7 @@ def test_unknown_category_gets_the_motor_voice() -> None:
 # differences within a family of machines
 
 
-def onsets_per_s(y: Signal) -> float:
+def onsets_per_s(y: Floats) -> float:
     """Onsets per second: rises of the level of 5 ms by a factor of four, at least 50 ms apart."""
     n = round(0.005 * SAMPLE_RATE_HZ)
     level = np.sqrt(np.mean(np.square(y[: len(y) // n * n].reshape(-1, n)), axis=1))

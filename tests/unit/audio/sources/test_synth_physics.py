@@ -15,15 +15,16 @@ import pytest
 from scipy.signal import butter, hilbert, sosfilt
 
 from scene2hap.audio.actuators import actuator_profile
-from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.felt_component import felt_component_of
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.sources.synth.events import blows, bubbles, music
 from scene2hap.audio.sources.synth.oscillating import combustion, ringing_motor, vibration_motor
 from scene2hap.audio.sources.synth.rotating import compressor, fan, power_tool, pump, spinner, washing
-from scene2hap.audio.sources.synth.signals import SAMPLE_RATE_HZ, Signal, Take
+from scene2hap.audio.sources.synth.signals import SAMPLE_RATE_HZ, Take
 from scene2hap.audio.sources.synth.working import geared, rolling, rotor_slap, stepper
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import VibrationDescription
 from scene2hap.llm.lexicon.descriptions import describe
@@ -36,19 +37,19 @@ def take(drive: float = 0.5, size_factor: float = 1.0, mains_hz: float = 50.0, s
     return Take(np.random.default_rng(seed), drive, size_factor, mains_hz)
 
 
-def spectrum(y: Signal) -> tuple[Signal, Signal]:
+def spectrum(y: Floats) -> tuple[Floats, Floats]:
     """Frequencies and magnitudes with a Hann window, in bins of 0.1 Hz."""
     n = 2 * len(y)
     return np.fft.rfftfreq(n, 1 / SAMPLE_RATE_HZ), np.abs(np.fft.rfft((y - y.mean()) * np.hanning(len(y)), n))
 
 
-def line_hz(y: Signal, low_hz: float, high_hz: float) -> float:
+def line_hz(y: Floats, low_hz: float, high_hz: float) -> float:
     """Frequency of the strongest line between two frequencies."""
     f, magnitude = spectrum(y)
     return float(f[np.argmax(np.where((f >= low_hz) & (f <= high_hz), magnitude, 0.0))])
 
 
-def prominence_db(y: Signal, at_hz: float, half_width_hz: float = 1.0) -> float:
+def prominence_db(y: Floats, at_hz: float, half_width_hz: float = 1.0) -> float:
     """How far the line at a frequency stands above the median of its neighbourhood, +-10 Hz."""
     f, magnitude = spectrum(y)
     near = magnitude[np.abs(f - at_hz) <= half_width_hz].max()
@@ -234,7 +235,7 @@ def test_a_stepper_s_pitch_stays_within_its_speeds() -> None:
     ],
     ids=lambda voice: voice.func.__name__,
 )
-def test_speed_of_unregulated_motors_grows_with_drive_and_falls_with_size(voice: partial[Signal]) -> None:
+def test_speed_of_unregulated_motors_grows_with_drive_and_falls_with_size(voice: partial[Floats]) -> None:
     slow, middle, fast = (line_hz(voice(take(drive)), 40.0, 400.0) for drive in (0.0, 0.5, 1.0))
     assert (slow / middle, fast / middle) == (pytest.approx(0.85, rel=0.01), pytest.approx(1.15, rel=0.01))
     large = line_hz(voice(take(size_factor=0.75)), 30.0, 400.0)
@@ -294,9 +295,9 @@ def test_takes_of_a_machine_are_felt_at_one_frequency(noun: str) -> None:
     for seed in range(10):
         machine = VibrationDescription(noun, name, "", keywords, intensity, (0.3, 0.4, 0.3), seed=seed)
         clip = Synthesizer().find(machine)[0]
-        anchor = anchor_of(clip.samples, clip.sample_rate_hz, level_db, actuator)
-        assert anchor is not None
-        felt_hz.append(anchor.felt_hz)
+        component = felt_component_of(clip.samples, clip.sample_rate_hz, level_db, actuator)
+        assert component is not None
+        felt_hz.append(component.felt_hz)
     assert max(felt_hz) / min(felt_hz) < 2**0.5
 
 
@@ -410,9 +411,11 @@ def test_blades_on_the_shaft_of_a_motor_are_felt_at_its_speed_in_every_take() ->
     wanted = replace(asked("coffee grinder", "grinding", 0.6), size_m=(0.3, 0.4, 0.3))
     for seed in range(24):
         (clip,) = Synthesizer().find(replace(wanted, seed=seed))
-        anchor = anchor_of(clip.samples, clip.sample_rate_hz, sensation_level_db(0.6), actuator_profile("flat"))
-        assert anchor is not None
-        assert 190.0 < anchor.felt_hz < 235.0
+        component = felt_component_of(
+            clip.samples, clip.sample_rate_hz, sensation_level_db(0.6), actuator_profile("flat")
+        )
+        assert component is not None
+        assert 190.0 < component.felt_hz < 235.0
 
 
 def test_rain_is_no_machine() -> None:

@@ -7,10 +7,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from scene2hap.audio.analysis import dominant_frequency_hz
+from scene2hap.audio.analysis import dominant_frequency_hz, rhythm_hz
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.distinctness import rhythm_hz
-from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
+from scene2hap.audio.scene_loops import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.haptics import ActuatorProfile, VibrationDescription

@@ -5,7 +5,7 @@ import pytest
 from scipy.signal import hilbert
 
 from amplitudes import amplitude
-from scene2hap.audio.anchor import TrackedAnchor
+from scene2hap.audio.felt_component import TrackedComponent
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.adaptive import Adaptive, clear_of
@@ -109,22 +109,24 @@ def test_tracked_pitch_does_not_alternate_between_equal_harmonics() -> None:
     t = np.arange(40 * RATE) / RATE
     turn = 10 ** (np.sign(np.sin(2 * np.pi * t / 7.0)) / 20)
     x = (0.1 * turn * np.sin(2 * np.pi * 150 * t) + 0.1 / turn * np.sin(2 * np.pi * 240 * t)).astype(np.float32)
-    anchor = TrackedAnchor(RATE, sensation_level_db(0.3), ActuatorProfile())
-    found = [anchor.look(x[at : at + RATE // 2]) for at in range(0, len(x), RATE)]
+    component = TrackedComponent(RATE, sensation_level_db(0.3), ActuatorProfile())
+    found = [component.analyse(x[at : at + RATE // 2]) for at in range(0, len(x), RATE)]
     assert np.ptp(np.array(found[1:])) < 3.0
     hopping = [
-        TrackedAnchor(RATE, 20.0, ActuatorProfile()).look(x[at : at + RATE // 2]) for at in range(0, len(x), RATE)
+        TrackedComponent(RATE, 20.0, ActuatorProfile()).analyse(x[at : at + RATE // 2]) for at in range(0, len(x), RATE)
     ]
     assert np.ptp(np.array(hopping)) > 80.0
 
 
 @pytest.mark.parametrize("look_s", [0.25, 0.5, 1.0])
 def test_another_sound_is_tracked_without_a_trace_of_the_one_before(look_s: float) -> None:
-    anchor = TrackedAnchor(RATE, sensation_level_db(0.3), ActuatorProfile())
+    component = TrackedComponent(RATE, sensation_level_db(0.3), ActuatorProfile())
     t = np.arange(round(look_s * RATE)) / RATE
     for own_hz, other_hz in ((80.0, 200.0), (80.0, 200.0), (200.0, 80.0), (80.0, 200.0)):
-        assert anchor.look(0.3 * np.sin(2 * np.pi * own_hz * t)) == pytest.approx(own_hz, abs=0.1)
-        own, other = (anchor.share(lambda f, hz=hz: (np.abs(f - hz) < 30.0) * 1.0) for hz in (own_hz, other_hz))
+        assert component.analyse(0.3 * np.sin(2 * np.pi * own_hz * t)) == pytest.approx(own_hz, abs=0.1)
+        own, other = (
+            component.passed_power(lambda f, hz=hz: (np.abs(f - hz) < 30.0) * 1.0) for hz in (own_hz, other_hz)
+        )
         assert other < 1e-3 * own
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from scene2hap.audio.anchor import anchor_of
+from scene2hap.audio.felt_component import felt_component_of
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.attacks import EmphasizedAttacks
@@ -50,10 +50,11 @@ def test_a_syllable_is_felt_as_clearly_as_it_is_heard(seed: int) -> None:
     """Without the lift, the median syllable of each seed rose by 1.2 to 1.9 dB less than in the sound."""
     rng = np.random.default_rng(seed)
     x = 0.2 * after_pauses(12.0) * (band_noise(rng, len(T), RATE, 80.0, 3500.0) + np.sin(2 * np.pi * 130.0 * T))
-    anchor = anchor_of(x, RATE, 20.0, ActuatorProfile())
-    assert anchor is not None
+    component = felt_component_of(x, RATE, 20.0, ActuatorProfile())
+    assert component is not None
     stream = CONVERTERS.build("auto").stream(
-        RATE, ConversionContext(own_hz=anchor.frequency_hz, target_hz=anchor.carrier_hz, band_db=anchor.band_db)
+        RATE,
+        ConversionContext(own_hz=component.frequency_hz, target_hz=component.carrier_hz, band_db=component.band_db),
     )
     felt = np.concatenate([stream.process(x.astype(np.float32)), stream.finish()]).astype(float)
     assert np.median(rises_db(felt) - rises_db(x)) > -0.5

@@ -7,10 +7,10 @@ import pytest
 
 from scene2hap.audio.actuators import actuator_profile
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.felt_loop import Plan, SourceClip, felt_loop, plan_scene
-from scene2hap.audio.haptic_loop import Sensation
+from scene2hap.audio.infrasound import infrasound_filter
 from scene2hap.audio.protocol import ConversionContext
-from scene2hap.audio.spectra.heard import heard_sections
+from scene2hap.audio.scene_loops import Plan, SourceClip, felt_loop, plan_scene
+from scene2hap.audio.sensation import Sensation
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.audio.tactile.stages import SosStage
 from scene2hap.errors import AudioError
@@ -75,7 +75,7 @@ def test_roughness_leaves_the_slow_envelope_unchanged() -> None:
 def test_auto_equals_adaptive_without_roughness_and_onsets() -> None:
     context = ConversionContext(own_hz=150.0, target_hz=170.0)
     stream = CONVERTERS.build("adaptive").stream(RATE, context)
-    heard = stream.process(SosStage(heard_sections(RATE)).run(ENGINE.astype(np.float64)))
+    heard = stream.process(SosStage(infrasound_filter(RATE)).run(ENGINE.astype(np.float64)))
     expected = np.concatenate([heard, stream.finish()])
     before_end = slice(0, -RATE // 10)  # the level follower mends the end, where the sound breaks off
     np.testing.assert_array_equal(felt(context)[before_end], expected[RATE:][before_end])

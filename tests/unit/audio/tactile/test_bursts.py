@@ -12,14 +12,15 @@ from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.auto import carrier_hz
 from scene2hap.audio.tactile.bursts import WithBursts
-from scene2hap.audio.tactile.stages import Signal, Stage
+from scene2hap.audio.tactile.stages import Stage
+from scene2hap.common.arrays import Floats
 from scene2hap.haptics import ActuatorProfile
 from sound_draws import recordings
 
 RATE = 48_000
 
 
-def recording(name: str) -> tuple[Signal, int]:
+def recording(name: str) -> tuple[Floats, int]:
     found = recordings()
     if name not in found:
         pytest.skip("needs the shared folder's recordings beside the project")
@@ -29,23 +30,23 @@ def recording(name: str) -> tuple[Signal, int]:
 class Silence(Stage):
     """A silent bed, so that only bursts are left."""
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         return np.zeros_like(x)
 
 
-def bursts(sound: Signal, rate: int = RATE, *, bed_follows: bool = False) -> Signal:
+def bursts(sound: Floats, rate: int = RATE, *, bed_follows: bool = False) -> Floats:
     stage = WithBursts(Silence(), 200.0, rate, bed_follows=bed_follows)
     return np.concatenate([stage.run(sound), stage.rest()])
 
 
-def starts_s(felt: Signal, rate: int = RATE) -> Signal:
+def starts_s(felt: Floats, rate: int = RATE) -> Floats:
     """Times at which silence ends [s]."""
     loud = np.abs(felt) > 1e-4
     wide = np.convolve(loud, np.ones(rate // 200), "full")[: len(loud)] > 0
     return np.flatnonzero(wide[1:] & ~wide[:-1]) / rate
 
 
-def ticks(times_s: Signal, hum: float, tick: float, seconds: float = 10.0, rate: int = RATE) -> Signal:
+def ticks(times_s: Floats, hum: float, tick: float, seconds: float = 10.0, rate: int = RATE) -> Floats:
     """Ticks of 3 to 9 kHz over a hum of 97 Hz and a little noise."""
     rng, t = np.random.default_rng(0), np.arange(round(seconds * rate)) / rate
     sound = hum * np.sin(2 * np.pi * 97 * t) + 0.003 * rng.standard_normal(len(t))
@@ -78,7 +79,7 @@ def test_onsets_do_not_depend_on_the_sample_rate(rate: int) -> None:
 
 
 def test_a_louder_tick_is_a_stronger_burst_and_a_sharper_one_is_shorter() -> None:
-    def one(height: float, lasts_s: float) -> Signal:
+    def one(height: float, lasts_s: float) -> Floats:
         sound = np.zeros(RATE)
         t = np.arange(round(lasts_s * RATE)) / RATE
         sound[RATE // 2 : RATE // 2 + len(t)] = height * np.sin(2 * np.pi * 3000 * t)
@@ -142,7 +143,7 @@ def test_the_end_of_a_beep_is_no_onset(tone_hz: float, lasts_s: float) -> None:
     assert not bursts(beeps, bed_follows=True).any()
 
 
-def auto(sound: Signal, rate: int, own_hz: float, band_db: float) -> Signal:
+def auto(sound: Floats, rate: int, own_hz: float, band_db: float) -> Floats:
     stream = CONVERTERS.build("auto").stream(rate, ConversionContext(own_hz=own_hz, band_db=band_db))
     return np.concatenate([stream.process(sound.astype(np.float32)), stream.finish()]).astype(float)
 
@@ -168,7 +169,7 @@ class Murmur(Stage):
     def __init__(self, weakest: float) -> None:
         self._weakest, self._n = weakest, 0
 
-    def run(self, x: Signal) -> Signal:
+    def run(self, x: Floats) -> Floats:
         t = (self._n + np.arange(len(x))) / RATE
         self._n += len(x)
         return self._weakest * np.where(t % 2 < 1, 1.0, 2.5) * np.sin(2 * np.pi * 150 * t)

@@ -7,7 +7,7 @@ import pytest
 from scipy.signal import butter, hilbert, sosfilt
 
 from scene2hap.audio.actuators import ACTUATORS
-from scene2hap.audio.anchor import anchor_of
+from scene2hap.audio.felt_component import felt_component_of
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.following import MOST_LIFTED_DB, LevelFollower
@@ -117,10 +117,10 @@ def test_a_slow_change_outside_the_band_is_felt() -> None:
     rng = np.random.default_rng(4)
     swell = 10 ** (-1.0 + 2.0 * np.minimum(T, 6.0 - T) / 6.0)
     x = np.sin(2 * np.pi * 150.0 * T) + 3.0 * swell * band_noise(rng, len(T), RATE, 500.0, 3500.0)
-    anchor = anchor_of(x, RATE, 20.0, ActuatorProfile())
-    assert anchor is not None
+    component = felt_component_of(x, RATE, 20.0, ActuatorProfile())
+    assert component is not None
     stream = CONVERTERS.build("auto").stream(
-        RATE, ConversionContext(own_hz=anchor.frequency_hz, band_db=anchor.band_db)
+        RATE, ConversionContext(own_hz=component.frequency_hz, band_db=component.band_db)
     )
     felt = np.concatenate([stream.process((0.1 * x).astype(np.float32)), stream.finish()]).astype(float)
     envelopes = [10 ** (levels_db(y) / 20) for y in (x, felt)]
@@ -164,9 +164,11 @@ def test_strokes_keep_their_strengths_on_a_resonant_actuator() -> None:
         x = strokes * np.convolve(rng.standard_normal(len(T) + 8), np.ones(9), "valid")
         x = (0.5 * x / np.abs(x).max()).astype(np.float32)
         lra = ACTUATORS["lra"]
-        anchor = anchor_of(x, RATE, 20.0, lra)
-        assert anchor is not None
-        stream = CONVERTERS.build("auto").stream(RATE, anchor.within(ConversionContext(lra, 0.3), anchor.carrier_hz))
+        component = felt_component_of(x, RATE, 20.0, lra)
+        assert component is not None
+        stream = CONVERTERS.build("auto").stream(
+            RATE, component.added_to(ConversionContext(lra, 0.3), component.carrier_hz)
+        )
         felt = np.concatenate([stream.process(x), stream.finish()]).astype(float)
         envelopes = [np.sqrt((y.astype(float).reshape(-1, RATE // 10) ** 2).mean(axis=1)) for y in (x, felt)]
         found.append(np.corrcoef(*envelopes)[0, 1])

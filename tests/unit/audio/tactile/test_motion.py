@@ -9,7 +9,7 @@ from scipy.signal import bilinear, hilbert, lfilter
 
 from scene2hap.audio.actuators import actuator_profile
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
+from scene2hap.audio.scene_loops import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.tactile.auto import Auto
 from scene2hap.audio.tactile.motion import modulation_gain, motion, ringing_s
 from scene2hap.audio.tactile.stages import SosStage

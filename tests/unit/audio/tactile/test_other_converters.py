@@ -8,8 +8,8 @@ from scipy.signal import hilbert
 
 from amplitudes import amplitude
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.scene_loops import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.tactile.envelope import EnvelopeCarrier
 from scene2hap.audio.tactile.frequency_shift import FrequencyShift
 from scene2hap.audio.tactile.lowpass import Lowpass

@@ -9,16 +9,16 @@ import pytest
 import soundfile
 
 from scene2hap.audio.actuators import actuator_profile
-from scene2hap.audio.anchor import anchor_of
-from scene2hap.audio.anchor.moving_pitch import growth_db, moving_pitch
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert, convert_clip
-from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
+from scene2hap.audio.felt_component import felt_component_of
+from scene2hap.audio.felt_component.moving_pitch import growth_db, moving_pitch
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.scene_loops import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.tactile.adaptive import Adaptive
 from scene2hap.audio.tactile.auto import Auto
-from scene2hap.audio.tactile.stages import Signal
+from scene2hap.common.arrays import Floats
 
 pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.audio.conversion.LevelWarning")
 
@@ -26,16 +26,16 @@ RATE = 16_000
 T = np.arange(16 * RATE) / RATE
 
 
-def engine(low_hz: float, high_hz: float, n_orders: int = 12, seed: int = 3) -> Signal:
+def engine(low_hz: float, high_hz: float, n_orders: int = 12, seed: int = 3) -> Floats:
     """Orders of a speed that rises and falls in 8 s, each of constant amplitude, and a little noise."""
     middle, reach = 0.5 * (low_hz + high_hz), 0.5 * (high_hz - low_hz)
     phase = 2 * np.pi * np.cumsum(middle - reach * np.cos(2 * np.pi * T / 8)) / RATE
     x = sum((np.sin(k * phase + k * k) / k for k in range(1, n_orders + 1)), np.zeros(len(T)))
-    sound: Signal = 0.6 * x / np.abs(x).max() + 0.002 * np.random.default_rng(seed).standard_normal(len(T))
+    sound: Floats = 0.6 * x / np.abs(x).max() + 0.002 * np.random.default_rng(seed).standard_normal(len(T))
     return sound
 
 
-def range_db(x: Signal, rate: int = RATE) -> float:
+def range_db(x: Floats, rate: int = RATE) -> float:
     """Range from the 5th to the 95th percentile of the level in 0.1 s [dB]."""
     n = rate // 10
     level = 10 * np.log10((x[: len(x) // n * n].reshape(-1, n) ** 2).mean(axis=1) + 1e-12)
@@ -97,7 +97,7 @@ def test_a_sound_without_moving_pitch_keeps_its_band(kind: str) -> None:
         "impulses": 0.3 * np.exp(-(T % 0.1) / 1e-3) * noise.clip(-2, 2),
         "silence": np.zeros(len(T)),
     }[kind]
-    found = anchor_of(sound, RATE, sensation_level_db(1.0), actuator_profile("flat"))
+    found = felt_component_of(sound, RATE, sensation_level_db(1.0), actuator_profile("flat"))
     assert found is None or found.band_q is None
 
 
@@ -108,7 +108,7 @@ def test_beating_lines_are_not_a_pitch_that_moves() -> None:
     beats = 0.6 * (0.3 * order + 0.2 * pull)
     assert growth_db(sound, beats, 16.0) > 3.0
     assert moving_pitch(sound, RATE, (20.0, 1000.0), 2.0) is None
-    found = anchor_of(sound, RATE, sensation_level_db(0.1), actuator_profile("flat"))
+    found = felt_component_of(sound, RATE, sensation_level_db(0.1), actuator_profile("flat"))
     assert found is not None
     assert found.felt_hz == pytest.approx(99.6, abs=0.5)
 
@@ -147,7 +147,7 @@ def test_a_melody_is_told_at_a_note_that_vibrates_and_sounds(neighbour_hz: float
 def test_a_moving_pitch_has_no_roughness() -> None:
     """On a narrow actuator, which plays none of its notes, a melody of 66 and 117 Hz was rough at 88 Hz, then at 66."""
     hz = np.where(np.floor(T / 0.5) % 2 > 0, 66.0, 117.0)
-    found = anchor_of(np.sin(2 * np.pi * np.cumsum(hz) / RATE), RATE, 20.0, actuator_profile("lra"))
+    found = felt_component_of(np.sin(2 * np.pi * np.cumsum(hz) / RATE), RATE, 20.0, actuator_profile("lra"))
     assert found is not None
     assert found.band_q is not None
     assert found.rough_hz is None

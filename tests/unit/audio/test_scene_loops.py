@@ -13,10 +13,10 @@ from scipy.signal import hilbert
 
 from scene2hap.audio.actuators import ACTUATORS
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.felt_loop import Plan, SourceClip, felt_loop, plan_scene
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import threshold_db
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.scene_loops import Plan, SourceClip, felt_loop, plan_scene
 from scene2hap.audio.select import select_clip
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.tactile.adaptive import Adaptive
@@ -73,7 +73,7 @@ def level_db(loop: HapticLoop) -> float:
     return float(10 * np.log10(np.sum((a[inside] / 10 ** (threshold_db(f[inside]) / 20)) ** 2)))
 
 
-# The smallest published Weber fraction, and the one that `distinctness` uses.
+# The smallest published Weber fraction, and the one that `threshold` uses.
 @pytest.mark.parametrize("weber", [0.18, 0.22])
 def test_every_pair_of_the_kitchen_is_distinct(baked: dict[str, tuple[Plan, HapticLoop]], weber: float) -> None:
     for one, other in combinations(baked, 2):
@@ -202,6 +202,6 @@ def test_sources_that_share_a_sound_are_analysed_once(monkeypatch: pytest.Monkey
     def noted(samples: np.ndarray, sample_rate_hz: float) -> None:
         measured.append(len(samples))
 
-    monkeypatch.setattr("scene2hap.audio.felt_loop.rhythm_hz", noted)
+    monkeypatch.setattr("scene2hap.audio.scene_loops.rhythm_hz", noted)
     plan_scene([*kitchen().values()] * 5, Adaptive(), FLAT)
     assert 0 < len(measured) <= len(kitchen())

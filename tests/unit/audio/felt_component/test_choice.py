@@ -1,4 +1,4 @@
-"""The anchor, the frequency that represents a source: strong in its spectrum, and in the range of touch."""
+"""The felt component, the frequency that represents a source: strong in its spectrum, and in the range of touch."""
 
 from __future__ import annotations
 
@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 import scipy.fft
 
+from scene2hap.audio.actuator_range import HIGHEST_PEAK_DB, best_carrier_hz
 from scene2hap.audio.actuators import actuator_profile, response_db
-from scene2hap.audio.anchor.whole_sound import HIGHEST_PEAK_DB, anchor_of, best_carrier_hz, fast_length
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert_clip
-from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
+from scene2hap.audio.felt_component import felt_component_of
+from scene2hap.audio.felt_component.bands import fast_length
 from scene2hap.audio.levels import felt_level_db, sensation_level_db, threshold_db
+from scene2hap.audio.scene_loops import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.haptics import ActuatorProfile
 from sound_draws import band_noise, coloured_noise
@@ -26,18 +28,18 @@ def tones(**amplitudes: float) -> np.ndarray:
     return np.sum([a * np.sin(2 * np.pi * float(name[1:]) * t) for name, a in amplitudes.items()], axis=0)
 
 
-def test_anchor_is_the_component_that_is_felt_most() -> None:
+def test_felt_component_is_the_component_that_is_felt_most() -> None:
     """40 Hz is the strongest, but would need more than full scale to be felt at the requested level."""
     level_db = sensation_level_db(0.5)
-    found = anchor_of(tones(f40=0.5, f150=0.3, f260=0.2), RATE, level_db, actuator_profile("flat"))
+    found = felt_component_of(tones(f40=0.5, f150=0.3, f260=0.2), RATE, level_db, actuator_profile("flat"))
     assert found is not None
     assert found.frequency_hz == pytest.approx(150.0, abs=0.1)
 
 
-def test_anchor_is_the_strongest_component_if_its_level_is_hardly_missed() -> None:
-    """With 5 dB missing, the strongest component stays the anchor; with 7 dB missing, the next one is. A component
-    below 60 Hz stays with 1.5 dB missing, but not with 5 dB."""
-    for strongest_hz, missed_db, is_anchor in (
+def test_felt_component_is_the_strongest_component_if_its_level_is_hardly_missed() -> None:
+    """With 5 dB missing, the strongest component is chosen; with 7 dB missing, the next one. A component below 60 Hz is
+    chosen with 1.5 dB missing, but not with 5 dB."""
+    for strongest_hz, missed_db, is_chosen in (
         (105.0, 5.0, True),
         (105.0, 7.0, False),
         (50.0, 1.5, True),
@@ -45,17 +47,17 @@ def test_anchor_is_the_strongest_component_if_its_level_is_hardly_missed() -> No
     ):
         x = tones(**{f"f{strongest_hz:.0f}": 0.5, "f220": 0.15})
         level_db = HIGHEST_PEAK_DB + missed_db - float(threshold_db(strongest_hz))
-        found = anchor_of(x, RATE, level_db, actuator_profile("flat"))
+        found = felt_component_of(x, RATE, level_db, actuator_profile("flat"))
         assert found is not None
-        assert found.frequency_hz == pytest.approx(strongest_hz if is_anchor else 220.0, abs=0.1)
+        assert found.frequency_hz == pytest.approx(strongest_hz if is_chosen else 220.0, abs=0.1)
 
 
-def test_anchor_is_not_a_component_14_db_below_the_strongest() -> None:
-    """A hum of 50 Hz stays the anchor, though it is felt less, if all other components are 14 dB or more below."""
+def test_felt_component_is_not_a_component_14_db_below_the_strongest() -> None:
+    """A hum of 50 Hz is chosen, though it is felt less, if all other components are 14 dB or more below."""
     level_db = sensation_level_db(0.5)
     for faint_db, expected_hz in ((-12.0, 250.0), (-16.0, 50.0)):
         x = tones(f50=0.5, f250=0.5 * 10 ** (faint_db / 20))
-        found = anchor_of(x, RATE, level_db, actuator_profile("flat"))
+        found = felt_component_of(x, RATE, level_db, actuator_profile("flat"))
         assert found is not None
         assert found.frequency_hz == pytest.approx(expected_hz, abs=0.1)
 
@@ -64,7 +66,7 @@ def test_anchor_is_not_a_component_14_db_below_the_strongest() -> None:
 @pytest.mark.parametrize(
     "name", ["fridge_hum_kitchen.wav", "oven_hum.wav", "washing_machine_rinse.wav", "computer_fan_hum.wav"]
 )
-def test_anchors_of_recordings_are_within_14_db_of_the_strongest_component(
+def test_felt_components_of_recordings_are_within_14_db_of_the_strongest_component(
     sound: Callable[[str], AudioClip], name: str, actuator: str
 ) -> None:
     """Measured with a plain spectrum of the whole recording; in an earlier version it was up to 21 dB."""
@@ -74,7 +76,7 @@ def test_anchors_of_recordings_are_within_14_db_of_the_strongest_component(
     f = np.fft.rfftfreq(len(x), 1 / clip.sample_rate_hz)
     rendered = (f >= max(20.0, profile.min_frequency_hz)) & (f <= profile.max_frequency_hz)
     for intensity in (0.1, 0.3, 0.6, 1.0):
-        found = anchor_of(x, clip.sample_rate_hz, sensation_level_db(intensity), profile)
+        found = felt_component_of(x, clip.sample_rate_hz, sensation_level_db(intensity), profile)
         assert found is not None
         near = np.abs(f - found.frequency_hz) < 1.0
         assert 20 * np.log10(magnitude[near].max() / magnitude[rendered].max()) > -15.0
@@ -95,7 +97,7 @@ def test_anchors_of_recordings_are_within_14_db_of_the_strongest_component(
 def test_tone_too_low_to_be_felt_is_rendered_as_roughness(
     amplitudes: dict[str, float], felt_hz: float, rough_hz: float | None
 ) -> None:
-    found = anchor_of(tones(**amplitudes), RATE, sensation_level_db(0.5), actuator_profile("flat"))
+    found = felt_component_of(tones(**amplitudes), RATE, sensation_level_db(0.5), actuator_profile("flat"))
     assert found is not None
     assert found.frequency_hz == pytest.approx(felt_hz, abs=0.1)
     assert found.rough_hz == (None if rough_hz is None else pytest.approx(rough_hz, abs=0.1))
@@ -109,7 +111,7 @@ def test_tone_too_low_to_be_felt_is_rendered_as_roughness(
         ({"f70": 0.5}, "lra", 70.0, 175.0, 70.0),
         ({"f100": 0.5}, "lra", 100.0, 175.0, 100.0),  # in an earlier version it left no trace
         ({"f125": 0.5}, "lra", 125.0, 175.0, None),  # too fast for roughness
-        ({"f50": 0.5, "f180": 0.05}, "lra", 50.0, 175.0, 50.0),  # a component 20 dB below is not the anchor
+        ({"f50": 0.5, "f180": 0.05}, "lra", 50.0, 175.0, 50.0),  # a component 20 dB below is not the felt component
         ({"f50": 0.5, "f180": 0.2}, "lra", 180.0, None, 50.0),
         ({"f3000": 0.5}, "flat", 3000.0, 250.0, None),
         ({"f3000": 0.5, "f120": 0.1}, "flat", 120.0, None, None),  # a hum under a whine
@@ -123,7 +125,7 @@ def test_tone_that_cannot_be_felt_is_moved_to_the_best_frequency_of_the_actuator
     amplitudes: dict[str, float], actuator: str, own_hz: float, carrier_hz: float | None, rough_hz: float | None
 ) -> None:
     x = tones(**amplitudes) + 1e-4 * np.random.default_rng(0).standard_normal(5 * RATE)
-    found = anchor_of(x, RATE, sensation_level_db(0.4), actuator_profile(actuator))
+    found = felt_component_of(x, RATE, sensation_level_db(0.4), actuator_profile(actuator))
     assert found is not None
     assert found.frequency_hz == pytest.approx(own_hz, abs=0.1)
     assert found.carrier_hz == (None if carrier_hz is None else pytest.approx(carrier_hz, rel=0.03))
@@ -133,7 +135,7 @@ def test_tone_that_cannot_be_felt_is_moved_to_the_best_frequency_of_the_actuator
 
 @pytest.mark.parametrize("slope", [0.0, 1.0])
 @pytest.mark.parametrize("seed", range(4))
-def test_noise_is_anchored_in_a_band_that_reaches_the_requested_level(slope: float, seed: int) -> None:
+def test_noise_is_chosened_in_a_band_that_reaches_the_requested_level(slope: float, seed: int) -> None:
     """The highest peak of noise is random: in an earlier version pink noise was felt 10 dB too weak and as rough."""
     clip = AudioClip(0.1 * coloured_noise(np.random.default_rng(seed), 5 * RATE, slope), RATE)
     (plan,) = plan_scene([SourceClip(clip, 0.3)], CONVERTERS.build("auto"), actuator_profile("flat"))
@@ -154,13 +156,13 @@ def error_of_band_db(x: np.ndarray, own_hz: float, asked_db: float, actuator: Ac
 
 @pytest.mark.parametrize("actuator", ["flat", "voice_coil"])
 @pytest.mark.parametrize("seed", range(6))
-def test_no_band_of_noise_or_ticks_is_closer_to_the_level_than_the_anchor(seed: int, actuator: str) -> None:
+def test_no_band_of_noise_or_ticks_is_closer_to_the_level_than_the_felt_component(seed: int, actuator: str) -> None:
     """Most bands are ruled out by a bound of their error; none of them may be the best one, or an accepted one."""
     rng, profile, asked_db = np.random.default_rng(seed), actuator_profile(actuator), sensation_level_db(1.0)
     x = 0.2 * coloured_noise(rng, 3 * RATE, rng.uniform(-1.0, 0.5))
     if seed % 2:
         x *= np.arange(len(x)) % (RATE // 5) < RATE // 100
-    found = anchor_of(x, RATE, asked_db, profile)
+    found = felt_component_of(x, RATE, asked_db, profile)
     assert found is not None
     if found.carrier_hz is None:
         bands_hz = 10 ** (np.arange(20, 27) / 10)  # 100 to 398 Hz
@@ -181,16 +183,18 @@ def test_bands_of_noise_that_are_out_of_reach_are_not_computed(monkeypatch: pyte
 
     monkeypatch.setattr(scipy.fft, "irfft", counting)
     x = 0.2 * np.random.default_rng(0).standard_normal(5 * 48_000)
-    assert anchor_of(x, 48_000, sensation_level_db(1.0), actuator_profile("flat")) is not None
+    assert felt_component_of(x, 48_000, sensation_level_db(1.0), actuator_profile("flat")) is not None
     assert sum(lengths) < 3 * len(x)
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_anchor_of_a_hiss_is_not_the_rumble_of_its_recording(seed: int) -> None:
-    """In an earlier version a peak at 20 Hz, 38 dB weaker, made a band at 160 Hz the anchor, which cannot be felt."""
+def test_felt_component_of_a_hiss_is_not_the_rumble_of_its_recording(seed: int) -> None:
+    """In an earlier version a peak at 20 Hz, 38 dB weaker, had a band at 160 Hz chosen, which cannot be felt."""
     rng, rate = np.random.default_rng(seed), 32_000
     rumble = 0.01 * coloured_noise(rng, 4 * rate, 2.0)
-    found = anchor_of(band_noise(rng, 4 * rate, rate, 2000.0, 8000.0) + rumble, rate, 22.0, actuator_profile("flat"))
+    found = felt_component_of(
+        band_noise(rng, 4 * rate, rate, 2000.0, 8000.0) + rumble, rate, 22.0, actuator_profile("flat")
+    )
     assert found is not None
     assert found.frequency_hz > 1500.0
     assert found.carrier_hz is not None
@@ -204,7 +208,7 @@ def test_hum_below_a_louder_hiss_is_felt_only_if_it_is_in_reach(seed: int) -> No
     hiss = band_noise(rng, 4 * rate, rate, 2000.0, 5000.0)
     for hum_hz, expected_hz in ((60.0, None), (150.0, 150.0)):
         hum = 0.03 * np.sin(2 * np.pi * hum_hz * t)
-        found = anchor_of(hiss + hum, rate, sensation_level_db(0.3), actuator_profile("flat"))
+        found = felt_component_of(hiss + hum, rate, sensation_level_db(0.3), actuator_profile("flat"))
         assert found is not None
         if expected_hz is None:
             assert found.frequency_hz > 1500.0
@@ -217,7 +221,7 @@ def test_call_above_the_rumble_of_its_recording_is_felt() -> None:
     """Rumble has the highest peak at 20 Hz, where it cannot be felt. Earlier, a howl around 700 Hz was felt by it."""
     rng, rate = np.random.default_rng(1), 16_000
     x = band_noise(rng, 4 * rate, rate, 600.0, 800.0) + 0.6 * band_noise(rng, 4 * rate, rate, 18.0, 36.0)
-    found = anchor_of(x, rate, sensation_level_db(0.3), actuator_profile("flat"))
+    found = felt_component_of(x, rate, sensation_level_db(0.3), actuator_profile("flat"))
     assert found is not None
     assert found.carrier_hz is not None
     assert found.frequency_hz > 500.0
@@ -252,7 +256,7 @@ def test_beep_that_cannot_be_felt_is_moved_to_the_most_sensitive_frequency(
 ) -> None:
     """330 Hz is felt nearly as well as 250 Hz; 500 Hz reaches the level of an intensity of 0.1 only."""
     flat = actuator_profile("flat")
-    found = anchor_of(tones(**{f"f{hz}": 0.5}), RATE, sensation_level_db(intensity), flat)
+    found = felt_component_of(tones(**{f"f{hz}": 0.5}), RATE, sensation_level_db(intensity), flat)
     assert found is not None
     assert found.frequency_hz == pytest.approx(hz, abs=0.1)
     assert found.carrier_hz == (best_carrier_hz(flat) if is_moved else None)
@@ -275,10 +279,12 @@ def test_the_level_of_what_is_kept_is_known() -> None:
     """The band has half the energy of two tones; for a beep, it is everything above half the beep's frequency."""
     rate = 48_000
     t = np.arange(2 * rate) / rate
-    two = anchor_of(np.sin(2 * np.pi * 150 * t) + np.sin(2 * np.pi * 5000 * t), rate, 15.0, actuator_profile("flat"))
+    two = felt_component_of(
+        np.sin(2 * np.pi * 150 * t) + np.sin(2 * np.pi * 5000 * t), rate, 15.0, actuator_profile("flat")
+    )
     assert two is not None
     assert two.band_db == pytest.approx(-3.0, abs=0.1)
-    beep = anchor_of(0.5 * np.sin(2 * np.pi * 2000 * t), rate, 15.0, actuator_profile("flat"))
+    beep = felt_component_of(0.5 * np.sin(2 * np.pi * 2000 * t), rate, 15.0, actuator_profile("flat"))
     assert beep is not None
     assert beep.carrier_hz is not None
     assert beep.band_db == pytest.approx(-0.26, abs=0.05)
@@ -300,7 +306,9 @@ def test_a_file_of_any_length_is_analysed_by_fast_transforms(monkeypatch: pytest
     for name in ("rfft", "dct", "idct", "irfft"):
         monkeypatch.setattr(scipy.fft, name, counting(name))
     x = tones(f150=0.3, f260=0.2)
-    whole, prime = (anchor_of(x[:n], RATE, sensation_level_db(0.5), actuator_profile("flat")) for n in (len(x), 39_989))
+    whole, prime = (
+        felt_component_of(x[:n], RATE, sensation_level_db(0.5), actuator_profile("flat")) for n in (len(x), 39_989)
+    )
     assert len(lengths) > 6
     assert [n for n in lengths if scipy.fft.next_fast_len(n) != n] == []
     assert whole is not None

@@ -18,7 +18,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.audio.spectra.components import Signal, magnitudes, strongest_component
+from scene2hap.audio.spectra.components import magnitudes, strongest_component
+from scene2hap.common.arrays import Floats
 
 STRETCH_S = 0.5
 """Length of the stretches in which levels and pitch are taken [s]."""
@@ -39,7 +40,7 @@ class MovingPitch(NamedTuple):
     q: float
 
 
-def growth_db(sound: Signal, band: Signal, duration_s: float) -> float:
+def growth_db(sound: Floats, band: Floats, duration_s: float) -> float:
     """Return the range of a band's level minus that of its sound [dB]; 0 for a short sound.
 
     Parameters: sound (n,), band (m,) : of equal duration, at any rates.
@@ -50,7 +51,7 @@ def growth_db(sound: Signal, band: Signal, duration_s: float) -> float:
     return _range_db(band, n_stretches) - _range_db(sound, n_stretches)
 
 
-def moving_pitch(x: Signal, sample_rate_hz: float, range_hz: tuple[float, float], most_q: float) -> MovingPitch | None:
+def moving_pitch(x: Floats, sample_rate_hz: float, range_hz: tuple[float, float], most_q: float) -> MovingPitch | None:
     """Return the band that holds the strongest line of a sound (n,) in each stretch.
 
     None if the sound has no lines, or if a band of quality `most_q` holds them.
@@ -69,7 +70,7 @@ def moving_pitch(x: Signal, sample_rate_hz: float, range_hz: tuple[float, float]
     return MovingPitch(math.sqrt(low * high), max(q, _LEAST_Q))
 
 
-def _range_db(x: Signal, n_stretches: int) -> float:
+def _range_db(x: Floats, n_stretches: int) -> float:
     size = len(x) // n_stretches
     power = np.square(x[: n_stretches * size].reshape(n_stretches, size)).mean(axis=1)
     low, high = np.percentile(power, (5, 95))

@@ -5,15 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from scene2hap.audio.actuators import equalize_loop
-from scene2hap.audio.anchor.whole_sound import Anchor, anchor_of, band_of
+from scene2hap.audio.analysis import rhythm_hz
 from scene2hap.audio.clip import AudioClip, Samples
-from scene2hap.audio.distinctness import rhythm_hz
-from scene2hap.audio.haptic_loop import HapticLoop, Sensation
+from scene2hap.audio.felt_component import FeltComponent, felt_component_of
+from scene2hap.audio.felt_component.bands import kept_band
+from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB, at_level, felt_level_db, sensation_level_db
 from scene2hap.audio.loops import loop_pair
 from scene2hap.audio.protocol import ConversionContext, TactileConverter, follows_target
-from scene2hap.audio.spreading import Placement, SpreadLimits, Voice, spread
+from scene2hap.audio.sensation import Sensation
+from scene2hap.audio.spreading import FeltSource, Placement, SpreadLimits, spread
 from scene2hap.haptics import ActuatorProfile
 
 _PEAK = 10 ** (-TACTILE_HEADROOM_DB / 20)
@@ -57,63 +61,66 @@ def plan_scene(
     """
     levels = [sensation_level_db(source.intensity) for source in sources]
     analysed = _analysed(sources, levels, actuator)
-    anchors = [anchor for anchor, _ in analysed]
     follows = follows_target(converter)
-    known = [i for i, anchor in enumerate(anchors) if anchor is not None]
-    voices = [
-        Voice(
-            source.pitch_hz or (anchor.felt_hz if follows else anchor.frequency_hz),
+    movable = {
+        i: FeltSource(
+            source.pitch_hz or (component.felt_hz if follows else component.frequency_hz),
             level,
             source.group,
-            anchor.crest_db,
+            component.crest_db,
             is_placed=source.keep or source.pitch_hz is not None,
             rhythm_hz=rhythm,
         )
-        for source, level, (anchor, rhythm) in zip(sources, levels, analysed, strict=True)
-        if anchor is not None
-    ]
-    fixed = [_standing_voice(loop, group, actuator) for loop, group in standing]
+        for i, (source, level, (component, rhythm)) in enumerate(zip(sources, levels, analysed, strict=True))
+        if component is not None
+    }
+    fixed = [_standing_source(loop, group, actuator) for loop, group in standing]
     if follows:
-        placed = dict(zip(known, spread([*voices, *fixed], actuator, limits), strict=False))
+        placed = dict(zip(movable, spread([*movable.values(), *fixed], actuator, limits), strict=False))
     else:
-        placed = {i: Placement(voice.own_hz, voice.level_db) for i, voice in zip(known, voices, strict=True)}
+        placed = {i: Placement(one.own_hz, one.level_db) for i, one in movable.items()}
     others = [(place.target_hz, sources[i].group) for i, place in placed.items()]
-    others += [(voice.own_hz, voice.group) for voice in fixed]
+    others += [(one.own_hz, one.group) for one in fixed]
     neighbours_hz = {
         own: tuple(dict.fromkeys(frequency for frequency, group in others if group != own))
         for own in {source.group for source in sources}
     }
     plans = []
-    for i, (source, anchor) in enumerate(zip(sources, anchors, strict=True)):
+    for i, (source, (component, _)) in enumerate(zip(sources, analysed, strict=True)):
         context = ConversionContext(actuator, source.intensity, neighbours_hz[source.group])
-        if anchor is None:
+        if component is None:
             plans.append(Plan(context, levels[i]))
         else:
-            plans.append(Plan(anchor.within(context, placed[i].target_hz), placed[i].level_db))
+            plans.append(Plan(component.added_to(context, placed[i].target_hz), placed[i].level_db))
     return tuple(plans)
 
 
 def _analysed(
     sources: Sequence[SourceClip], levels: Sequence[float], actuator: ActuatorProfile
-) -> list[tuple[Anchor | None, float | None]]:
-    """Return anchor and rhythm [Hz] of each source; sources that share a clip and a level are analysed once."""
-    known: dict[tuple[int, float], tuple[Anchor | None, float | None]] = {}
+) -> list[tuple[FeltComponent | None, float | None]]:
+    """Return felt component and rhythm [Hz] of each source; sources that share a clip and a level are analysed once."""
+    known: dict[tuple[int, float], tuple[FeltComponent | None, float | None]] = {}
     for source, level in zip(sources, levels, strict=True):
         key, clip = (id(source.clip), level), source.clip
         if key not in known:
-            anchor = anchor_of(clip.samples, clip.sample_rate_hz, level, actuator)
+            component = felt_component_of(clip.samples, clip.sample_rate_hz, level, actuator)
             rhythm = None
-            if anchor is not None:
-                rhythm = anchor.rough_hz or rhythm_hz(band_of(clip, anchor), clip.sample_rate_hz)
-            known[key] = anchor, rhythm
+            if component is not None:
+                rhythm = component.rough_hz or _band_rhythm_hz(clip, component)
+            known[key] = component, rhythm
     return [known[id(source.clip), level] for source, level in zip(sources, levels, strict=True)]
 
 
-def _standing_voice(loop: HapticLoop, group: str, actuator: ActuatorProfile) -> Voice:
+def _band_rhythm_hz(clip: AudioClip, component: FeltComponent) -> float | None:
+    x, rate = clip.samples.astype(np.float64), clip.sample_rate_hz
+    return rhythm_hz(kept_band(x, rate, component.frequency_hz, component.q), rate)
+
+
+def _standing_source(loop: HapticLoop, group: str, actuator: ActuatorProfile) -> FeltSource:
     clip = loop.tactile
     level_db = felt_level_db(clip.samples, clip.sample_rate_hz, actuator)
     rhythm = rhythm_hz(clip.samples, clip.sample_rate_hz)
-    return Voice(loop.frequency_tactile_hz, level_db, group, is_placed=True, rhythm_hz=rhythm)
+    return FeltSource(loop.frequency_tactile_hz, level_db, group, is_placed=True, rhythm_hz=rhythm)
 
 
 def felt_loop(clip: AudioClip, converter: TactileConverter, plan: Plan) -> HapticLoop:
