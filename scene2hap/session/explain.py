@@ -135,7 +135,7 @@ class Explainer:
     def _paths_to(self, on: str, point_m: Point) -> PathsToPoint:
         """Return the paths to a touched point; hands touch few, so that each is searched from once."""
         if (on, point_m) not in self._paths:
-            contacts = self._state.graph.contacts
+            contacts = self._state.contacts
             costs = PathCosts.of(self._model, self._state.bodies, contacts)
             self._paths[on, point_m] = PathsToPoint(
                 costs.cost_per_m, contacts, costs.crossing_cost, costs.max_hops, on, point_m

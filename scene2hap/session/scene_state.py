@@ -67,6 +67,11 @@ class SceneState:
         """Pose of every object. The mapping never changes; a move makes a new one."""
         return self.graph.poses
 
+    @property
+    def contacts(self) -> tuple[Contact, ...]:
+        """All contacts, sorted by pair. Those of unchanged pairs are not made again."""
+        return self._contact_lists.of(self.graph.junctions)
+
     def require(self, object_id: object, hint: str = "") -> None:
         """Raise an UnknownObject, with a hint at the end of its message, if an object is not in the scene."""
         if isinstance(object_id, str) and object_id in self.objects:

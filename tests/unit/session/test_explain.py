@@ -10,6 +10,7 @@ import pytest
 
 from scene2hap import Contact, HapticBundle, HapticSession, Pose, SceneSnapshot, Touch, materials
 from scene2hap.audio.sensation import Sensation
+from scene2hap.contact.junction import Junction
 from scene2hap.errors import SessionError
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.paths.live_law import LivePaths
@@ -393,3 +394,27 @@ def test_paths_are_searched_to_the_felt_sources_alone(monkeypatch: pytest.Monkey
     assert [one.source_id for one in s.explain("left").felt] == ["phone"]
     assert limits
     assert None not in limits
+
+
+def test_only_the_contacts_that_changed_are_made_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    cups = [box(f"cup{i}", (0.05, 0.1, 0.05), (0.1 + 0.2 * i, 0.77, 0.2)) for i in range(7)]
+    room = scene(
+        box("table", (1.6, 0.02, 0.8), (0.8, 0.71, 0.4)), box("phone", (0.1, 0.01, 0.1), (0.3, 0.725, 0.6)), *cups
+    )
+    inferred = {"table": haptics("oak", (1.6, 0.8, 0.02)), "phone": haptics("glass", (0.1, 0.1, 0.01), "ringing")}
+    made: list[tuple[str, str]] = []
+    contacts = Junction.contacts
+
+    def noted(self: Junction, pair: tuple[str, str]) -> tuple[Contact, ...]:
+        made.append(pair)
+        return contacts(self, pair)
+
+    bundle = HapticBundle(room, "room", inferred, {"phone": {"ringing": tone_loop(180)}})
+    with HapticSession(room, bundle, {"sample_rate_hz": RATE}) as s:
+        s.update(touches=[ON_TABLE])
+        s.explain("left")
+        monkeypatch.setattr(Junction, "contacts", noted)
+        s.update({"cup3": Pose((0.72, 0.77, 0.2))}, [ON_TABLE])
+        (felt,) = s.explain("left").felt
+    assert made == [("cup3", "table")]
+    assert [step.object_id for step in felt.steps] == ["phone", "table"]
