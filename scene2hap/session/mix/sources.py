@@ -236,10 +236,10 @@ class Sources:
         """
         source = self[source_id]
         if state is not None and not (isinstance(state, str) and state in source.rows):
-            raise SessionError(
-                f"{source_id!r} has no state {checks.represented(state)}; it has {', '.join(map(repr, source.rows))}. "
-                "`on` switches it on and off."
-            )
+            is_switch = isinstance(state, str) and state.lower() in ("on", "off")
+            hint = "`on` switches it on and off." if is_switch else checks.did_you_mean(state, source.rows)
+            has = ", ".join(map(repr, source.rows))
+            raise SessionError(f"{source_id!r} has no state {checks.represented(state)}; it has {has}. {hint}".rstrip())
         is_on = source.is_on if on is None else checks.flag("on", on, error=SessionError)
         source.level.set(gain_db, mute)
         source.is_on = is_on

@@ -97,3 +97,5 @@ def test_an_unknown_state_is_refused_with_the_switch() -> None:
     """None of the states that the message names switches a source off."""
     with pytest.raises(SessionError, match="no state 'off'; it has .* `on` switches it on and off"):
         humming_hob().set_source("hob", state="off")
+    with pytest.raises(SessionError, match=r"no state 'zorgon'; it has '[^`]*'\.$"):
+        humming_hob().set_source("hob", state="zorgon")
