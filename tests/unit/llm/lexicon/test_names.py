@@ -447,6 +447,10 @@ NAMES = {
     "aspirateur_balai": "vacuum cleaner",
     "macchina_caffe": "coffee machine",
     # English words that are also foreign ones
+    "bureau_drawer": "drawer",
+    "canape_plate": "plate",
+    "banc_piano": "music stool",
+    "camera_tele": "camera",
     "support_beam": "beam",
     "pipe_support_02": "pipe",
     "siege_tower": "tower",
