@@ -419,6 +419,10 @@ NAMES = {
     "speaker_grille": "vent grille",
     # the driver of a loudspeaker is the part that moves
     "speaker_driver": "speaker",
+    # people stand on the moving platform of a lift, not on the one beside a train
+    "elevator_platform": "elevator",
+    "scissor_lift_platform": "scissor lift",
+    "train_platform": None,
     "airplane_wing_L": "wing",
     "robot0:foot_link": "robot part",
     "KickScooter": "kick scooter",
@@ -446,6 +450,7 @@ NAMES = {
     "scala_mobile": "escalator",
     "aspirateur_balai": "vacuum cleaner",
     "macchina_caffe": "coffee machine",
+    "mobile_bagno": "cabinet",
     # English words that are also foreign ones
     "bureau_drawer": "drawer",
     "canape_plate": "plate",
