@@ -13,8 +13,17 @@ from functools import cache, lru_cache
 
 from scene2hap.llm.lexicon.table import rows_of
 
-# Foreign words that are also English words: a number, a state, a tool's cube, or another object.
-_ENGLISH = frozenset({"four", "lit", "cubo", "piso", "bank", "trap", "kop", "wand"})
+# Foreign words that are also English words: a number, a state, a tool's cube, a colour, or another object.
+_ENGLISH = frozenset(
+    {"bank", "chat", "cubo", "four", "kop", "lit", "nave", "pastel", "piso", "siege", "support", "tabla", "toboggan"}
+    | {"tele", "tonne", "trap", "wand"}
+)
+
+SHARED = frozenset(
+    {"bar", "bus", "cd", "container", "dvd", "garage", "golf", "hotel", "laptop", "metro", "pc", "piano", "pizza"}
+    | {"radio", "robot", "sauna", "scooter", "sofa", "tablet", "taxi", "tennis", "tv"}
+)
+"""English nouns that Romance languages have too: a "mando_tv" is the remote of a TV, but a "bureau_drawer" a drawer."""
 
 COMPOUNDING = ("de", "nl")
 """Languages that put the kind before the object, as English does."""

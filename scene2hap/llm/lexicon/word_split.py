@@ -143,9 +143,11 @@ def _is_kind_of(thing: str, word: str) -> bool:
 
 
 def _nouns_by_language(word: str) -> Mapping[str, tuple[str, ...]]:
-    """Return the English words of a word in each language that has it; an English noun may be one in all of them."""
+    """Return the English words of a word in each language that has it; an English noun is foreign only if shared."""
     single = next((form for form in words.forms(word) if form in nouns()), None)
-    return translations.by_language(word) if single is None else dict.fromkeys(translations.LANGUAGES, (single,))
+    if single is None:
+        return translations.by_language(word)
+    return dict.fromkeys(translations.LANGUAGES, (single,)) if single in translations.SHARED else {}
 
 
 def _is_foreign(word: str) -> bool:

@@ -192,8 +192,8 @@ NO_MACHINES = _set("""
     art file icon guide instruction license shadow outline stencil
     plan schedule sketch symbol emblem badge tag bill permit pass recipe
     control console channel sensor fuse chuck kit pad seal strip
-    sheet film guard holster head tip sleeve mitt wrap foot nose tail inlet intake meter indicator trim spare
-    fuel lint dust smoke steam sound noise ash crumb pod grease wax lube polish coolant rag
+    sheet film guard holster head tip sleeve mitt wrap foot nose tail inlet intake meter indicator trim spare support
+    fuel lint dust waste smoke steam sound noise ash crumb pod grease wax lube polish coolant rag
     debris fragment gib husk ruin wreckage
 """)
 """Words directly after a machine, or last after it, that say that the object is another one: the place around it
