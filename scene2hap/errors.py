@@ -48,6 +48,7 @@ import errno
 import os
 import sys
 from dataclasses import FrozenInstanceError
+from pathlib import Path
 from traceback import walk_tb
 
 _PACKAGE = __name__.partition(".")[0]
@@ -225,21 +226,23 @@ def reason_of(cause: BaseException) -> str:
     """Return the reason of a caught error for a message that names the file.
 
     The text of an OSError repeats the file and has a number: "[Errno 2] No such file or directory: 'a.csv'". Its reason
-    does not name the part of a path that is a file in place of a folder. That of a UnicodeDecodeError names a codec.
+    does not name the part of a path that is a file, or a broken link, in place of a folder. That of a
+    UnicodeDecodeError names a codec.
     """
     if isinstance(cause, UnicodeDecodeError):
         return f"byte {cause.start} is {cause.object[cause.start]:#04x}, which is not UTF-8; save the text as UTF-8"
     if isinstance(cause, FileExistsError | NotADirectoryError) and (part := _no_folder(cause)):
-        return f"{part} is a file, not a folder"
+        return f"{part} is not a folder"
     return cause.strerror if isinstance(cause, OSError) and cause.strerror else str(cause)
 
 
 def _no_folder(cause: OSError) -> str:
     """Return the part of a path that is there and is no folder, such as a.csv of a.csv/b; "" if there is none."""
-    part = cause.filename if isinstance(cause.filename, str) and cause.filename2 is None else ""  # a rename has both
-    while part and not os.path.lexists(part):
-        part = os.path.dirname(part)
-    return "" if os.path.isdir(part) else part
+    if not isinstance(cause.filename, str) or cause.filename2 is not None:  # a rename has both
+        return ""
+    path = Path(cause.filename)
+    part = next((one for one in (path, *path.parents) if os.path.lexists(one)), None)
+    return "" if part is None or os.path.isdir(part) else str(part)
 
 
 def failure_of(problem: Exception) -> str:

@@ -1,7 +1,8 @@
 """Chunks of WAV files, and the lengths that programs leave in the header of a WAV that they write into a pipe.
 
-A header comes before its samples, so that a program that writes into a pipe does not know their length. It leaves 0
-(older ffmpeg, GStreamer), the largest length (ffmpeg), or about 2 GB (sox and espeak 0x7ffff000, arecord 0x80000000).
+A header comes before its samples, so that a program that writes into a pipe does not know their length. It leaves 0 for
+the samples (older ffmpeg; GStreamer, with the length of the header for the file), the largest length (ffmpeg), or about
+2 GB (sox and espeak 0x7ffff000, arecord 0x80000000).
 """
 
 from __future__ import annotations
@@ -11,8 +12,9 @@ import struct
 from pathlib import Path
 from typing import Any, BinaryIO, Final
 
-UNKNOWN_FROM: Final = 0x7FFF_0000
-"""Lengths from here on are unknown [bytes]: sox rounds 0x7ffff000 down to whole frames (assumed: below 60 kB each)."""
+_UNKNOWN: Final = (2**31, 2**32)
+"""Lengths within 64 KiB of these are unknown [bytes]: sox rounds 0x7ffff000 down to whole frames (assumed: below 60 kB
+each), and the file is longer than its samples."""
 
 
 def find_chunk(file: BinaryIO, wanted: bytes) -> int | None:
@@ -36,11 +38,12 @@ def is_cut_short(path: Path) -> bool:
     with path.open("rb") as file:
         header = file.read(8)
     stated = int.from_bytes(header[4:], "little")
-    return header[:4] == b"RIFF" and stated < UNKNOWN_FROM and path.stat().st_size < stated
+    is_unknown = any(abs(stated - one) < 0x1_0000 for one in _UNKNOWN)
+    return header[:4] == b"RIFF" and not is_unknown and path.stat().st_size < stated
 
 
 class UnsizedWav(io.FileIO):
-    """A WAV file whose header has 0 for the length of the file and of its samples: it is read up to its end.
+    """A WAV file whose header has 0 for the length of its samples: it is read up to its end.
 
     libsndfile would find no samples. It gets the largest length instead.
     """
@@ -59,9 +62,9 @@ class UnsizedWav(io.FileIO):
 
 
 def unsized_wav(path: Path) -> UnsizedWav | None:
-    """Open a WAV file without lengths; None for any other file. Raises: OSError."""
+    """Open a WAV whose stated length ends before its samples, of length 0; None for any other file. Raises: OSError."""
     with path.open("rb") as file:
-        if file.read(8) != b"RIFF\0\0\0\0":
-            return None
+        stated = int.from_bytes(file.read(8)[4:], "little")
         file.seek(0)
-        return UnsizedWav(path, file.tell() - 4) if find_chunk(file, b"data") == 0 else None
+        is_unsized = find_chunk(file, b"data") == 0 and stated + 8 <= file.tell()
+        return UnsizedWav(path, file.tell() - 4) if is_unsized else None

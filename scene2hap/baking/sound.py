@@ -9,8 +9,10 @@ from __future__ import annotations
 import asyncio
 import os
 from collections.abc import Callable, Collection, Mapping, Sequence
+from contextlib import suppress
 from contextvars import ContextVar
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from threading import Lock
 
 import numpy as np
@@ -239,8 +241,6 @@ class _Chooser:
     ) -> None:
         self._config, self._overrides, self._earlier, self._inferred = config, overrides, earlier, inferred
         self._names = names
-        # Other names are left out of descriptions, so that objects of one type share a search.
-        self._named = frozenset(name for one in config.audio if isinstance(one, NamedSounds) for name in one.names())
         self._chosen: dict[VibrationDescription, tuple[AudioClip, str, Runs]] = {}
         self._clips: dict[tuple[VibrationDescription, str], AudioClip] = {}
         self._own: dict[str, tuple[AudioClip, Runs]] = {}
@@ -272,6 +272,8 @@ class _Chooser:
                 clip = before.source or _prepared(_repeated(before.audible))  # None if the file was removed
                 request = {**request, "sources": before.fingerprint.get("sources", "")}
                 return _Part(object_id, state, group, clip, request, before, runs=runs_of(before)), why
+        if (name := self._names.get(object_id, "")).casefold() in self._named:
+            description = replace(description, name=name)
         if description not in self._chosen:
             choice = self._choose(object_id, description)
             runs = choice.start_up, choice.wind_down
@@ -280,6 +282,17 @@ class _Chooser:
             self._chosen[description] = self._clips.setdefault(key, _prepared(choice.winner)), str(choice), runs
         clip, why, runs = self._chosen[description]
         return _Part(object_id, state, group, clip, request, before, runs=shown_runs(runs, state, before)), why
+
+    @cached_property
+    def _named(self) -> frozenset[str]:
+        """Names of sounds. Descriptions leave out all other names, so that objects of one type share a search."""
+        found: set[str] = set()
+        for source in self._config.audio:
+            if isinstance(source, NamedSounds):
+                # Plug-ins may raise anything. `gather` warns of a source that fails, and queries the next one.
+                with suppress(Exception):
+                    found |= source.names()
+        return frozenset(found)
 
     def _holds(self, fingerprint: Mapping[str, str], request: Mapping[str, str]) -> bool:
         parts = ("words",) if self._earlier.any_source else ("words", "sources")
@@ -297,7 +310,6 @@ class _Chooser:
             ) from cause
 
     def _description(self, object_id: str, haptics: ObjectHaptics, state: SourceState) -> VibrationDescription:
-        name = self._names.get(object_id, "")
         return VibrationDescription(
             object_category=haptics.object_category,
             state=state.name,
@@ -307,8 +319,7 @@ class _Chooser:
             size_m=haptics.estimated_size_m,
             material=haptics.material_category,
             seed=self._config.seed,
-            own_word=own_word(name, haptics.object_category),
-            name=name if name.casefold() in self._named else "",
+            own_word=own_word(self._names.get(object_id, ""), haptics.object_category),
         )
 
 

@@ -24,8 +24,9 @@ class Host:
         self.owns_process = owns_process
         self.jobs: Jobs = Jobs()
         self.udp_port: int | None = None
-        of_settings = _absolute_paths([config.bake, config.session, config.sink])
-        own = {str(Path(__file__).parents[2]), sys.prefix, sys.base_prefix, os.path.expanduser("~"), *of_settings}
+        # A user without a home has "~" for it, which is no path.
+        of_server = [Path(__file__).parents[2], sys.prefix, sys.base_prefix, os.path.expanduser("~")]
+        own = {*_absolute_paths([of_server, config.bake, config.session, config.sink])}
         # The longest first, since one may be below another.
         self._own_folders = sorted(map(Path, own), key=lambda folder: -len(folder.parts))
         self._sessions: dict[str, HostedSession] = {}

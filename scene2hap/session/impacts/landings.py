@@ -172,11 +172,11 @@ class Landings:
         return [one for one in found if (one.onto, one.object_id) not in met or one.object_id < one.onto]
 
     def _met(self, object_id: str) -> Mapping[str, Junction]:
-        """Return the present contacts of an object, and those that ended in this step."""
+        """Return the present contacts of an object, and those that ended in this step, but for removed objects."""
         near, beside = self._near.get(object_id, NO_JUNCTIONS), self._graph.beside.get(object_id, NO_JUNCTIONS)
         if near.keys() <= beside.keys():
             return beside
-        return {**beside, **{x: near[x] for x in near if x not in beside}}
+        return {**beside, **{x: near[x] for x in near if x not in beside and x in self._graph}}
 
     def _is_sudden(self, object_id: str) -> bool:
         """Whether a fall changes abruptly with this step, relative to a neighbour: both may be in a vehicle."""

@@ -161,6 +161,11 @@ def test_an_error_of_the_servers_own_settings_does_not_tell_where_its_folders_ar
     assert not host.as_told(f"at {checks.__file__}:3").startswith("at /")
 
 
+def test_messages_for_a_user_without_a_home_stay(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("os.path.expanduser", str)
+    assert Host(BridgeConfig(), owns_process=False).as_told("takes ~ 3 s") == "takes ~ 3 s"
+
+
 def test_only_the_root_itself_is_left_out_of_messages(root: Path) -> None:
     host = Host(BridgeConfig(root=root), owns_process=False)
     assert host.as_told(f"{root} and {root}. {root}/a {root}//b") == "the bridge's root and the bridge's root. a b"

@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from own_sounds import RATE_HZ
 from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake, rebake
+from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.encoding import encoded
+from scene2hap.audio.sources.chain import SourceWarning
+from scene2hap.audio.sources.library import FolderLibrary
+from scene2hap.audio.sources.synth import Synthesizer
+from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.own_words import own_word
+from scene2hap.errors import AudioError
+from scene2hap.haptics import VibrationDescription
 
 
 @pytest.mark.parametrize(
@@ -88,6 +96,31 @@ def test_an_object_has_the_sound_of_its_whole_name(tmp_path: Path) -> None:
     config = {"audio": [{"kind": "library", "folder": str(tmp_path)}]}
     bundle = bake(_scene(a="fan_02", b="fan_04", c="fan_05"), config)
     assert _titles(bundle) == {"a": "Fan_02", "b": "fan", "c": "fan"}
+
+
+class _Failing(FolderLibrary):
+    """A plug-in whose folder is gone, or which has other `names` than a library."""
+
+    names: Any = ("Fan_02",)
+
+    def find(self, description: VibrationDescription) -> list[AudioClip]:
+        raise AudioError(f"gone, with {description.name or 'no name'}")
+
+
+def test_a_source_whose_names_fail_is_skipped_as_if_it_had_none(tmp_path: Path) -> None:
+    (tmp_path / "sounds").mkdir()
+    library = FolderLibrary(tmp_path / "sounds")
+    (tmp_path / "sounds").rmdir()
+    config = BakeConfig(audio=(_Failing(tmp_path), library, Synthesizer()))
+    with pytest.warns(SourceWarning) as warned:
+        bundle = bake(_scene(a="Fan_02"), config)
+    assert _titles(bundle) == {"a": "fan (fan), take 1"}
+    told = [str(one.message) for one in warned]
+    assert len(told) == 2
+    assert "gone, with no name" in told[0]
+    assert "is not a folder" in told[1]
+    # Loops that are kept need no source.
+    assert _titles(rebake(bundle, config)) == _titles(bundle)
 
 
 def test_other_words_for_one_type_share_its_sound() -> None:

@@ -154,7 +154,7 @@ def test_a_file_where_a_folder_must_be_is_named(
 ) -> None:
     monkeypatch.setattr("scene2hap.cli.inspect.render_all", lambda *given, **options: pytest.fail("work is lost"))
     (tmp_path / "file").write_text("mine")
-    with pytest.raises(Scene2HapError, match=re.escape(f"{tmp_path / 'file'} is a file, not a folder.")):
+    with pytest.raises(Scene2HapError, match=re.escape(f"{tmp_path / 'file'} is not a folder.")):
         use(tmp_path / place)
 
 

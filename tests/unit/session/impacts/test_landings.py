@@ -454,6 +454,23 @@ def test_object_removed_while_falling_does_not_land() -> None:
     assert landings.look({}, 3 * PERIOD_S) == []
 
 
+def test_object_removed_between_two_updates_of_a_step_is_landed_on_no_more() -> None:
+    """The cup falls onto a book that slides in the air, and that is removed as the cup flies up again."""
+    state = room()
+    landings, found = Landings(state, PERIOD_S), list[Landing]()
+    for step, height_m in enumerate([0.12, 0.09, 0.06, 0.03, 0.0, 0.0, 0.03, 0.06, 0.09]):
+        poses = {"cup": Pose((-0.4, 1.075 + height_m, 0.2)), "book": Pose((-0.4 + 0.001 * step, 1.0, 0.2))}
+        moved = {object_id: pose for object_id, pose in poses.items() if object_id in state.objects}
+        time_s = (step - (step > 4)) * PERIOD_S  # updates 4 and 5 are of one step
+        landings.begin(moved, time_s)
+        state.graph.update(moved)
+        found += landings.look(moved, time_s)
+        if step == 5:
+            assert state.graph.beside["cup"].keys() == {"book"}
+            state.remove("book")
+    assert found == []
+
+
 @pytest.mark.parametrize("height_m", [0.05, 0.1, 0.2, 0.8])
 @pytest.mark.parametrize(("physics_hz", "frames_hz"), [(50, 60), (50, 72), (60, 90), (30, 90), (20, 60), (60, 144)])
 def test_physics_slower_than_the_frames_gives_one_landing(height_m: float, physics_hz: int, frames_hz: int) -> None:
