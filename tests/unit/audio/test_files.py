@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import io
-import os
 import struct
 import wave
 from pathlib import Path
@@ -13,7 +12,7 @@ import soundfile
 from scene2hap import audio
 from scene2hap.audio.clip import Credit
 from scene2hap.audio.encoding import encoded
-from scene2hap.audio.files import READABLE, SUFFIXES, read_clip, written_whole
+from scene2hap.audio.files import READABLE, SUFFIXES, read_clip
 from scene2hap.errors import AudioError
 
 RATE = 8000
@@ -145,28 +144,6 @@ def test_wrong_shapes_rates_and_subtypes_are_refused() -> None:
         encoded(tone(), 0)
     with pytest.raises(AudioError, match="subtype is 'FLOAT'"):
         encoded(tone(), RATE, "FLOAT")
-
-
-def test_failed_write_keeps_the_old_file_and_no_temporary_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = tmp_path / "a.wav"
-    path.write_bytes(encoded(tone(), RATE))
-    before = path.read_bytes()
-
-    def fail(*_: object) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(os, "replace", fail)
-    said = r"a\.wav cannot be written: No space left on device\. Make room on its disk"
-    with pytest.raises(AudioError, match=said), written_whole(path) as draft:
-        draft.write_bytes(encoded(tone(amplitude=0.1), RATE))
-    assert [child.name for child in tmp_path.iterdir()] == ["a.wav"]
-    assert path.read_bytes() == before
-
-
-def test_a_missing_folder_is_named(tmp_path: Path) -> None:
-    refused = pytest.raises(AudioError, match="Choose a folder that exists")
-    with refused, written_whole(tmp_path / "absent" / "a.wav") as draft:
-        draft.write_bytes(encoded(tone(), RATE))
 
 
 def test_file_keeps_both_channels(tmp_path: Path) -> None:
