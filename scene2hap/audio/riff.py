@@ -11,8 +11,9 @@ import struct
 from pathlib import Path
 from typing import Any, BinaryIO, Final
 
-UNKNOWN_FROM: Final = 0x7FFF_0000
-"""Lengths from here on are unknown [bytes]: sox rounds 0x7ffff000 down to whole frames (assumed: below 60 kB each)."""
+_UNKNOWN_WITHIN: Final = 0x1_0000
+"""Lengths this near to 2 or 4 GiB are unknown [bytes]: sox rounds 0x7ffff000 down to whole frames (assumed: below 60 kB
+each). Other lengths of that size are those of real files."""
 
 
 def find_chunk(file: BinaryIO, wanted: bytes) -> int | None:
@@ -36,7 +37,8 @@ def is_cut_short(path: Path) -> bool:
     with path.open("rb") as file:
         header = file.read(8)
     stated = int.from_bytes(header[4:], "little")
-    return header[:4] == b"RIFF" and stated < UNKNOWN_FROM and path.stat().st_size < stated
+    is_known = all(abs(stated - unknown) > _UNKNOWN_WITHIN for unknown in (2**31, 2**32))
+    return header[:4] == b"RIFF" and is_known and path.stat().st_size < stated
 
 
 class UnsizedWav(io.FileIO):

@@ -154,9 +154,11 @@ def test_file_keeps_both_channels(tmp_path: Path) -> None:
     np.testing.assert_allclose(read, both, rtol=0, atol=2**-24)
 
 
-def test_a_file_cut_short_is_refused(tmp_path: Path) -> None:
+@pytest.mark.parametrize("stated", [None, 1_500_000_000, 3_000_000_000])
+def test_a_file_cut_short_is_refused(stated: int | None, tmp_path: Path) -> None:
     whole = encoded(tone(), RATE)
-    (tmp_path / "a.wav").write_bytes(whole[: len(whole) // 2])
+    size = whole[4:8] if stated is None else struct.pack("<I", stated)
+    (tmp_path / "a.wav").write_bytes(whole[:4] + size + whole[8 : len(whole) // 2])
     with pytest.raises(AudioError, match="is cut short"):
         read_clip(tmp_path / "a.wav")
 
