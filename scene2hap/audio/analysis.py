@@ -16,7 +16,6 @@ import scipy
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike
 
-from scene2hap.audio.clip import Samples
 from scene2hap.audio.infrasound import without_infrasound
 from scene2hap.audio.spectra.components import peak_offset
 from scene2hap.audio.spectra.windows import hann
@@ -51,13 +50,6 @@ HEARD_RANGE_HZ = (10.0, 20_000.0)
 RHYTHM_RANGE_HZ = (0.5, 60.0)
 SURE_DEPTH = 0.25
 """Modulation index of an envelope [-] from which every loop cut from a sound has its rate."""
-
-
-def trim_silence(samples: ArrayLike, sample_rate_hz: float) -> Samples:
-    """Return the samples without their silent ends (see `sounding_span`); empty if all is silent."""
-    original = np.asarray(samples, dtype=np.float32)
-    first, end = sounding_span(original, sample_rate_hz)
-    return original[first:end].copy()
 
 
 def sounding_span(samples: ArrayLike, sample_rate_hz: float) -> tuple[int, int]:

@@ -13,8 +13,8 @@ from scene2hap.audio.clip import AudioClip, Credit, Samples
 from scene2hap.audio.loop_marks import marked_loop
 from scene2hap.audio.riff import is_cut_short, unsized_wav
 from scene2hap.common.arrays import Floats
-from scene2hap.common.files import LFS_ADVICE, draft_of, is_lfs_pointer, is_there, path_in_c
-from scene2hap.errors import AudioError, reason_of, unwritable
+from scene2hap.common.files import LFS_ADVICE, is_lfs_pointer, is_there, path_in_c
+from scene2hap.errors import AudioError, reason_of
 
 MAX_FILE_S = 600.0
 """Longer files are refused before they are decoded [s]; assumed: no sound of an object needs ten minutes, and a
@@ -191,13 +191,3 @@ def require_finite(path: Path, channels: Samples, start: int = 0) -> None:
             f"{path}: sample {start + at} is {channels[at]}; every sample must be finite, and within {MAX_SAMPLE:g} "
             "[-], where full scale is 1. Export it again."
         )
-
-
-@contextmanager
-def written_whole(path: Path) -> Iterator[Path]:
-    """Yield a draft of a file, as `common.files.draft_of`. Raises: AudioError: the file cannot be written."""
-    try:
-        with draft_of(path) as beside:
-            yield beside
-    except OSError as cause:
-        raise AudioError(unwritable(path, cause)) from cause

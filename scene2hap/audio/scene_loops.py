@@ -62,7 +62,7 @@ def plan_scene(
     levels = [sensation_level_db(source.intensity) for source in sources]
     analysed = _analysed(sources, levels, actuator)
     follows = follows_target(converter)
-    movable = {
+    felt_sources = {
         i: FeltSource(
             source.pitch_hz or (component.felt_hz if follows else component.frequency_hz),
             level,
@@ -76,9 +76,9 @@ def plan_scene(
     }
     fixed = [_standing_source(loop, group, actuator) for loop, group in standing]
     if follows:
-        placed = dict(zip(movable, spread([*movable.values(), *fixed], actuator, limits), strict=False))
+        placed = dict(zip(felt_sources, spread([*felt_sources.values(), *fixed], actuator, limits), strict=False))
     else:
-        placed = {i: Placement(one.own_hz, one.level_db) for i, one in movable.items()}
+        placed = {i: Placement(one.own_hz, one.level_db) for i, one in felt_sources.items()}
     others = [(place.target_hz, sources[i].group) for i, place in placed.items()]
     others += [(one.own_hz, one.group) for one in fixed]
     neighbours_hz = {

@@ -22,9 +22,9 @@ from scene2hap.audio.conversion.kept_memory import keep_freed_memory
 from scene2hap.audio.conversion.levelling import levelled
 from scene2hap.audio.conversion.meter import Block, Meter
 from scene2hap.audio.conversion.reading import SoundReader
-from scene2hap.audio.conversion.writing import FORMATS, check_target, opened_for_writing, write_blocks
+from scene2hap.audio.conversion.writing import FORMATS, check_target, opened_for_writing, write_blocks, written_whole
 from scene2hap.audio.felt_component import felt_component_of
-from scene2hap.audio.files import Mixdown, opened_sound, written_whole
+from scene2hap.audio.files import Mixdown, opened_sound
 from scene2hap.audio.levels import FAINTEST_PEAK_DB, FULL_LEVEL_DB, sensation_level_db
 from scene2hap.audio.loop_marks import is_marked_whole, with_loop
 from scene2hap.audio.protocol import (

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from scene2hap.audio.conversion.meter import Block, Meter
 from scene2hap.audio.files import LARGEST_WAV_BYTES
-from scene2hap.common.files import path_in_c
-from scene2hap.errors import AudioError
+from scene2hap.common.files import draft_of, path_in_c
+from scene2hap.errors import AudioError, unwritable
 
 FORMATS = {
     ".wav": ("WAV", "PCM_24"),
@@ -41,6 +41,16 @@ def check_target(source: Path, output: Path, suffixes: Collection[str], *, overw
         raise AudioError(f"{output} is a folder. Choose another name.")
     if os.path.exists(output) and not overwrite:
         raise AudioError(f"{output} exists. Choose another name, or allow overwriting (overwrite=True, --force).")
+
+
+@contextmanager
+def written_whole(path: Path) -> Iterator[Path]:
+    """Yield a draft of a file, as `common.files.draft_of`. Raises: AudioError: the file cannot be written."""
+    try:
+        with draft_of(path) as beside:
+            yield beside
+    except OSError as cause:
+        raise AudioError(unwritable(path, cause)) from cause
 
 
 def opened_for_writing(

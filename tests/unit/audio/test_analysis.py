@@ -22,30 +22,31 @@ def tone(frequency_hz: float) -> np.ndarray:
     return np.sin(2 * np.pi * frequency_hz * T)
 
 
-# trimming ------------------------------------------------------------------------------------------------------------
+# silent ends ---------------------------------------------------------------------------------------------------------
 
 
-def test_trim_silence_cuts_both_ends_to_within_a_frame() -> None:
-    x = np.concatenate([np.zeros(RATE // 2), tone(100), 1e-4 * WHITE[: RATE // 4]]).astype(np.float32)
-    trimmed = analysis.trim_silence(x, RATE)
-    assert trimmed.dtype == np.float32
-    assert 0 <= len(trimmed) - len(T) <= 2 * 0.010 * RATE
+def test_silent_ends_are_found_to_within_a_frame() -> None:
+    x = np.concatenate([np.zeros(RATE // 2), tone(100), 1e-4 * WHITE[: RATE // 4]])
+    first, end = analysis.sounding_span(x, RATE)
+    assert 0 <= RATE // 2 - first <= 0.010 * RATE
+    assert 0 <= end - RATE // 2 - len(T) <= 0.010 * RATE
 
 
-def test_trim_silence_keeps_inner_silence_and_sound_39_db_below_the_peak() -> None:
+def test_inner_silence_and_sound_39_db_below_the_peak_are_no_silent_ends() -> None:
     x = np.concatenate([10 ** (-39 / 20) * tone(100), tone(100), np.zeros(RATE), tone(100)])
-    np.testing.assert_array_equal(analysis.trim_silence(x, RATE), x.astype(np.float32))
+    assert analysis.sounding_span(x, RATE) == (0, len(x))
 
 
 def test_an_offset_is_not_a_sound() -> None:
     x = 0.2 + np.concatenate([np.zeros(RATE), 0.1 * tone(100), np.zeros(RATE)])
-    assert 0 <= len(analysis.trim_silence(x, RATE)) - len(T) <= 2 * 0.010 * RATE
-    assert analysis.trim_silence(np.full(RATE, 0.2), RATE).size == 0
+    first, end = analysis.sounding_span(x, RATE)
+    assert 0 <= end - first - len(T) <= 2 * 0.010 * RATE
+    assert analysis.sounding_span(np.full(RATE, 0.2), RATE) == (0, 0)
 
 
 @pytest.mark.parametrize("x", [np.zeros(RATE), 0.5 / 32768 * np.sign(WHITE)])
-def test_trim_silence_removes_digital_silence_and_dither(x: np.ndarray) -> None:
-    assert analysis.trim_silence(x, RATE).size == 0
+def test_digital_silence_and_dither_are_silent(x: np.ndarray) -> None:
+    assert analysis.sounding_span(x, RATE) == (0, 0)
 
 
 # dynamic range -------------------------------------------------------------------------------------------------------
