@@ -261,7 +261,7 @@ PYTHON = re.compile(r"\b(None|True|False|nan|inf|dict|tuple|argument|numpy|sys|s
         ({"type": "set_user", "gain_db": "3"}, "must be a number.*, got '3'"),
         ({"type": "set_source", "source": "phone", "on": 1}, "must be true or false, got 1"),
         ({"type": "set_source", "source": "phone", "on": "no"}, "must be true or false, got 'no'"),
-        ({"type": "set_source", "source": "phone", "state": "loud"}, "`on` switches"),
+        ({"type": "set_source", "source": "phone", "state": "off"}, "`on` switches"),
         ({"type": "set_user", "profile": {"gain_db": None}}, "got null"),
         ({"type": "strike", "object": "vase", "point_m": [0, 0, 0]}, "There are 'table', 'phone', 'mug'"),
         ({"type": "strike", "object": "mug", "point_m": [0, True, 0]}, "point_m.1 of strike.*, got true"),
