@@ -66,7 +66,7 @@ class Host:
         """Return a message for clients. It names files as clients do, relative to the root, and not where they are.
 
         Files in folders of the server's settings, of Python and of the user are named without these folders. Other
-        paths stay: most are those that a client gave.
+        paths stay, since a client gave most of them.
         """
         named = {self.config.root: "the bridge's root", self.jobs.temporary: "a temporary folder of the bridge"}
         for folder, name in [*named.items(), *((one, "a folder of the bridge") for one in self._own_folders)]:

@@ -165,7 +165,7 @@ def _refined(signals: Sequence[Floats], weights: Sequence[Floats], fade: int, co
 
 
 def _best(found: list[Candidate], longest: int, period: float | None) -> Candidate:
-    """Return the longest of the best candidates; those that keep the beat, and long ones, are preferred."""
+    """Return the longest of the best candidates. Candidates that keep the beat are preferred, then long ones."""
     if period is not None:
         in_beat = [seam for seam in found if are_whole_periods(seam.length, period)]
         found = _preferred(in_beat, found, _UNNOTICED)

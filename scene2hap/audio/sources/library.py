@@ -50,11 +50,11 @@ class FolderLibrary:
         """Return up to five sounds whose words name the object, those with most words of the description first.
 
         A sound whose whole name is that of the object is taken before all others, whatever it says. Then come sounds
-        with the author's word for the object, then those that also name what the object does. If one
-        of them is long enough to be chosen, sounds that say less are left out. A sound with the right verb but another
-        object does not match: a boiling kettle is no boiling pan. Nor does one that shares only a word for anything: a
-        sewing machine is no vending machine, and of a "box" only sounds without other words match, such as "box
-        shaking". Sounds that are too short come last, as rows for the table of the choice.
+        with the author's word for the object, then those that also name what the object does. If one of them is long
+        enough to be chosen, sounds that say less are left out. A sound with the right verb but another object does not
+        match: a boiling kettle is no boiling pan. Nor does one that shares only a word for anything: a sewing machine
+        is no vending machine, and of a "box" only sounds without other words match, such as "box shaking". Sounds that
+        are too short come last, as rows for the table of the choice.
         Raises: ConfigError: see `FolderLibrary`.
         Warns: UnreadableSound: a file that cannot be read was skipped; ShortSound: no sound is long enough.
         """

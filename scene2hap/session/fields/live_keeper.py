@@ -15,9 +15,9 @@ from scene2hap.session.stats import SessionStats
 
 _MANY = 100
 """Number of points from which a prepared field is used for a map. A live field searches from each point, up to where
-nothing is felt, a prepared field from each source. The more sources, the longer either takes: they take equally long at
-10 to 350 points in furnished rooms and on floors of 100 to 1,000 objects with 4 to 549 sources. In rooms with 2 or 3
-sources, of which few points feel any, a field pays later or never; it takes 1 to 4 ms there."""
+nothing is felt, and a prepared field from each source. Both take equally long at 10 to 350 points, in furnished rooms
+and on floors of 100 to 1,000 objects with 4 to 549 sources. In rooms with 2 or 3 sources, of which few points feel any,
+a prepared field pays at more points or never; it takes 1 to 4 ms there."""
 
 
 class LiveKeeper:
@@ -80,5 +80,5 @@ class LiveKeeper:
         return False
 
     def wait(self, end: Deadline) -> bool:
-        """Return True: nothing is being prepared."""
+        """Return True at once, since a live field needs no preparation."""
         return True

@@ -172,7 +172,7 @@ class Landings:
         return [one for one in found if (one.onto, one.object_id) not in met or one.object_id < one.onto]
 
     def _met(self, object_id: str) -> Mapping[str, Junction]:
-        """Return the present contacts of an object, and those that ended in this step, but for removed objects."""
+        """Return the present contacts of an object, and those with present objects that ended in this step."""
         near, beside = self._near.get(object_id, NO_JUNCTIONS), self._graph.beside.get(object_id, NO_JUNCTIONS)
         if near.keys() <= beside.keys():
             return beside
