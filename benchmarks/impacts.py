@@ -31,7 +31,7 @@ from scene2hap.demo import kitchen_path
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.impact import burst_of
 from scene2hap.session.impacts.gains import struck_later
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.scene_state import SceneState
 
 UPDATES_HZ, IMPACTS_HZ, RATE_HZ, BLOCK, G = 90, 100, 48_000, 256, 9.81
 LOWEST_HZ = 24.0

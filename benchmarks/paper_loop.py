@@ -39,7 +39,7 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.propagation.bands.band_rms import BandRms
 from scene2hap.propagation.paths.live_law import LiveLaw, LivePaths
-from scene2hap.session.audibility import Audibility
+from scene2hap.session.gains.audibility import Audibility
 from scene2hap.session.mix.playback import Playback
 
 Clock = Callable[[], float]

@@ -35,6 +35,7 @@ from scene2hap.bundle.contents import require_same_scene
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls, read_only
 from scene2hap.common.counted import counted
+from scene2hap.common.deadline import Deadline
 from scene2hap.contact.graph import ContactChange
 from scene2hap.devices.protocol import ActuatorSink, Block
 from scene2hap.devices.whole_frames import WholeFrames
@@ -58,10 +59,17 @@ from scene2hap.session.arguments import (
     require_prefab,
 )
 from scene2hap.session.config import SessionConfig, require_settings
-from scene2hap.session.deadline import Deadline
-from scene2hap.session.explanation import Explanation, FeltSource
-from scene2hap.session.frame import Felt, GivenTouches, HapticFrame, Touch, given_touches, touches_by_hand
-from scene2hap.session.hand_frames import HandFrames
+from scene2hap.session.explanation.explanations import Explanations
+from scene2hap.session.explanation.report import Explanation
+from scene2hap.session.frame import (
+    GivenTouches,
+    HapticFrame,
+    Touch,
+    TouchesByHand,
+    given_touches,
+    touches_by_hand,
+)
+from scene2hap.session.gains.hand_frames import HandFrames
 from scene2hap.session.impacts.felt_impacts import Impact, Impacts
 from scene2hap.session.likely_mistakes import (
     LikelyMistakes,
@@ -75,9 +83,9 @@ from scene2hap.session.mix.playback import Playback
 from scene2hap.session.mix.sources import Level, SourceInfo, SourceProgress, Sources
 from scene2hap.session.mix.starts_and_stops import Switching
 from scene2hap.session.object_changes import ObjectChanges
-from scene2hap.session.prepared_shapes import PreparedShapes
+from scene2hap.session.present_scene.prepared_shapes import PreparedShapes
+from scene2hap.session.present_scene.scene_state import SceneState
 from scene2hap.session.proximity import Proximity
-from scene2hap.session.scene_state import SceneState
 from scene2hap.session.stats import SessionStats
 from scene2hap.session.unknown_names import require_hand
 from scene2hap.session.user_profile import UserProfile
@@ -218,7 +226,7 @@ class HapticSession:
         self._output.require_own_process()
         if moved is not None and type(moved) is not dict:
             moved, touches = given_frame(moved, touches)
-        felt = touches_by_hand(touches, self._hand_frames.hands, self._state)
+        by_hand = touches_by_hand(touches, self._hand_frames.hands, self._state)
         stamp = self._stamp(at_sample)
         if self._playback.take_prepared():
             self._hand_frames.loops_changed()
@@ -228,12 +236,12 @@ class HapticSession:
             self._hand_frames.apply(self._move(moved or {}, contacts))
         if self._switching.advance(stamp):
             self._hand_frames.levels_changed()
-        frame, gained = self._hand_frames.frame(felt, moved or (), is_paused=self._playback.is_paused)
+        frame, gained = self._hand_frames.frame(by_hand, moved or (), is_paused=self._playback.is_paused)
         if gained is not None:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
-        self._impacts.follow(moved, felt, stamp)
+        self._impacts.follow(moved, by_hand, stamp)
         self._output.feed(frame)
-        self._warn_of_mistakes(felt)
+        self._warn_of_mistakes(by_hand)
         return frame
 
     def touches_at(
@@ -264,7 +272,7 @@ class HapticSession:
             moved = given_poses(moved)
             require_moves(moved, self._state)
             poses = {**poses, **moved}
-        touched = self._hand_frames.felt
+        touched = self._hand_frames.touches
         return self._proximity.touches(points, self._state.objects, poses, within_m, depth_m, touched)
 
     def strike(
@@ -291,7 +299,7 @@ class HapticSession:
             self._state.require(with_object)
         strike = given_strike(object_id, point_m, with_object, speed_m_s, impulse_n_s)
         self._mistakes.in_strike(object_id, strike.point_m)
-        return self._impacts.strike(strike, self._hand_frames.felt, self._playback.now)
+        return self._impacts.strike(strike, self._hand_frames.touches, self._playback.now)
 
     def add(
         self,
@@ -431,21 +439,7 @@ class HapticSession:
         Raises: SessionError: an unknown hand.
         """
         require_hand(hand, self.hands)
-        explained = self._hand_frames.explain(hand, is_paused=self._playback.is_paused)
-        felt = sorted(
-            map(self._with_running, explained.felt), key=lambda one: -(one.gain_db + one.level_db + one.running_db)
-        )
-        of_sink = self._output.why_silent
-        reasons = explained.reasons if of_sink is None else (of_sink, *explained.reasons)
-        return replace(explained, felt=tuple(felt), impacts=self._impacts.felt_by(hand), reasons=reasons)
-
-    def _with_running(self, felt: FeltSource) -> FeltSource:
-        """Add the amplitude of a start or stop that is under way."""
-        source = self._sources[felt.source_id]
-        if source.transition_row is None:
-            return felt
-        amplitude = self._switching.running(felt.source_id).amplitude
-        return felt.during_transition(amplitude, is_start=source.is_running)
+        return self._explanations.of(hand)
 
     @property
     def is_current(self) -> bool:
@@ -644,6 +638,11 @@ class HapticSession:
         return ObjectChanges(*parts)
 
     @cached_property
+    def _explanations(self) -> Explanations:
+        parts = (self._state, self._sources, self._switching, self._hand_frames, self._playback)
+        return Explanations(self.config.propagation, *parts, self._impacts, self._output)
+
+    @cached_property
     def _proximity(self) -> Proximity:
         return Proximity()
 
@@ -660,12 +659,12 @@ class HapticSession:
         playback.updated_at = stamp
         return stamp
 
-    def _warn_of_mistakes(self, felt: Felt) -> None:
+    def _warn_of_mistakes(self, touches: TouchesByHand) -> None:
         if (problem := self._output.untold_problem) is not None:
             self._mistakes.in_sink(problem)
-        if felt:
+        if touches:
             self._mistakes.in_sources(self._sources.ids)
-            self._mistakes.in_touches(felt)
+            self._mistakes.in_touches(touches)
             if self._output.is_unused and not self._playback.position:
                 self._mistakes.in_output()
 

@@ -10,12 +10,12 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.differences import changed_objects
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.objects import SceneObject
-from scene2hap.session.hand_frames import HandFrames
+from scene2hap.session.gains.hand_frames import HandFrames
 from scene2hap.session.mix.playback import Playback
 from scene2hap.session.mix.sources import Level, LoopRow, Sources
 from scene2hap.session.mix.starts_and_stops import Switching
-from scene2hap.session.prepared_shapes import PreparedShapes
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.prepared_shapes import PreparedShapes
+from scene2hap.session.present_scene.scene_state import SceneState
 
 
 class ObjectChanges:

@@ -19,13 +19,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.common.arrays import Indices
+from scene2hap.common.deadline import Deadline
 from scene2hap.devices.protocol import Block
 from scene2hap.render.bursts import HEARD_S, MOST_SUM, Bursts, Fade, PlannedBurst
 from scene2hap.render.limiter import soft_limit_sum
 from scene2hap.render.loop_bank import Slot, SlotBank, position_s
 from scene2hap.render.transition import Running, Transition, TransitionCurve
 from scene2hap.session.config import MIN_RAMP_S, SessionConfig
-from scene2hap.session.deadline import Deadline
 from scene2hap.session.mix.hand_limits import HandLimits
 from scene2hap.session.mix.mixing_plan import MixerInstance, MixingPlan, PlannedMixer
 from scene2hap.session.mix.prepared_loops import PreparedLoop, find, order, prepare

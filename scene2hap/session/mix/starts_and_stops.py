@@ -12,7 +12,7 @@ from scene2hap.contact_needs import meets
 from scene2hap.render.transition import STEADY, STILL, Running, Transition, TransitionCurve
 from scene2hap.session.mix.playback import Playback
 from scene2hap.session.mix.sources import LoopRow, Source, SourceProgress, Sources
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.scene_state import SceneState
 
 
 class Switching:

@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import pytest
 
 from scene2hap import HapticSession
-from scene2hap.session import deadline
-from scene2hap.session.deadline import Deadline
+from scene2hap.common import deadline
+from scene2hap.common.deadline import Deadline
 from scenes import RATE, table_with_two_phones
 
 
