@@ -40,7 +40,7 @@ from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.propagation.bands.band_rms import BandRms
 from scene2hap.propagation.paths.live_law import LiveLaw, LivePaths
 from scene2hap.session.gains.audibility import Audibility
-from scene2hap.session.mix.playback import Playback
+from scene2hap.session.mix.loop_mixers import LoopMixers
 
 Clock = Callable[[], float]
 
@@ -269,7 +269,7 @@ def split(n_objects: int, kind: str, n_frames: int) -> None:
         "paths": (LivePaths, "least_costs"),
         "gains": (LiveLaw, "at"),
         "worth": (Audibility, "silence"),
-        "mixer": (Playback, "set_gains"),
+        "mixer": (LoopMixers, "set_gains"),
         "rest": (HapticSession, "update"),
     }
     with watch.watch(**methods):

@@ -119,6 +119,22 @@ class LikelyMistakes:
                 f"{one.b!r}; a normal points from a to b. Swap a and b, or no object lands."
             )
 
+    def in_frame(
+        self, touches: TouchesByHand, source_ids: Sequence[str], sink_problem: str | None, *, is_unplayed: bool
+    ) -> None:
+        """Warn of mistakes that an update shows; call it once for each.
+
+        Parameters: sink_problem : why the sink plays nothing, None if it plays; is_unplayed : the session's sink was
+        never started, and nothing was rendered. Warns: SceneWarning.
+        """
+        if sink_problem is not None:
+            self.in_sink(sink_problem)
+        if touches:
+            self.in_sources(source_ids)
+            self.in_touches(touches)
+            if is_unplayed:
+                self.in_output()
+
     def in_touches(self, touches_by_hand: TouchesByHand) -> None:
         """Count touches that are too far off, and warn about the first one of each hand. Warns: SceneWarning."""
         self._n_updates = n = self._n_updates + 1

@@ -250,7 +250,7 @@ class Impacts:
     def recent(self) -> tuple[Impact, ...]:
         """The impacts of the last second that any hand felt, the latest first."""
         self.take_late()
-        since = self._playback.position - self._config.sample_rate_hz
+        since = self._playback.clock.position - self._config.sample_rate_hz
         return tuple(one for one in reversed(self._recent) if one.at_sample >= since)
 
     def wait(self, end: Deadline) -> bool:
@@ -365,7 +365,7 @@ class Impacts:
                 gains = prepared()
             except (Exception, SystemExit):  # the field in use fails in the same way, and warns
                 return None
-            begin = playback.position
+            begin = playback.clock.position
             return started(gains, begin) if begin <= latest else None
 
         self._waiting.append((impact, self._workers.submit(work)))
