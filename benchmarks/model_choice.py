@@ -84,7 +84,7 @@ def scene_input(
 def levels_db(field: Any, points: list[tuple[str, NDArray[np.float64]]]) -> NDArray[np.float64]:
     """Band levels (n_points, n_sources, n_bands) [dB], no lower than `LEAST_DB`."""
     gains = np.array([field.attenuation(object_id, point[None])[0] for object_id, point in points])
-    return np.maximum(20 * np.log10(np.maximum(gains, 1e-12)), LEAST_DB)
+    return np.asarray(np.maximum(20 * np.log10(np.maximum(gains, 1e-12)), LEAST_DB))
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ def measure(path: str, name: str) -> Measured:
     for _ in range(2):
         prepared = chosen.prepare(network, excitations, BANDS)
         times.append(time.process_time())
-    first, further, seen = [], [], set[str]()
+    first, further, seen = list[float](), list[float](), set[str]()
     for object_id, point in points:
         begun = time.process_time()
         prepared.attenuation(object_id, point[None])
