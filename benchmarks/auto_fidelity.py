@@ -24,6 +24,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from importlib.metadata import version
 from itertools import repeat
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -137,7 +138,8 @@ def draw(seed: int, *, at_edges: bool = False) -> Draw:
     edges = np.geomspace(10, 1000, 21)[first : last + 1]
     bands = Bands.third_octaves() if is_whole else Bands(tuple(map(float, edges)))
     network = ContactNetwork({"plate": plate}, feet, {"plate": Pose((0.0, 0.0, 0.0))})
-    return Draw(kind, plate, network, (Excitation("source", 100.0, 100.0, mass_kg),), bands, (*map(float, touch), 0.0))
+    x, y = map(float, touch)
+    return Draw(kind, plate, network, (Excitation("source", 100.0, 100.0, mass_kg),), bands, (x, y, 0.0))
 
 
 def _at_edge(
@@ -162,20 +164,20 @@ def by_rung(one: Draw, rung: str, density: float = 1.0) -> CoupledField:
 
 def forget() -> None:
     """Clear the caches of plates."""
-    for cached in (modes.modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact):
-        cached.cache_clear()
-    for kept in (lattice_modes._modes_up_to, lattice_body.lattice_body):
-        kept.cache_clear()
-    of_lattices = bending_lattice.bending_lattice, bending_lattice.lines_of, bending_lattice.aligned
-    for kept in (*of_lattices, bending_lattice.of_size_one, bending_lattice.outline_of):
-        kept.cache_clear()
-    infinite_body._table.cache_clear()
+    cached: tuple[Any, ...] = (
+        *(modes.modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact),
+        *(lattice_modes._modes_up_to, lattice_body.lattice_body, infinite_body._table),
+        *(bending_lattice.bending_lattice, bending_lattice.lines_of, bending_lattice.aligned),
+        *(bending_lattice.of_size_one, bending_lattice.outline_of),
+    )
+    for one in cached:
+        one.cache_clear()
 
 
 def asked(one: Draw, field: PropagationField) -> NDArray[np.float64]:
     """Gains at the touch [dB], at least `FLOOR_DB`."""
-    gains = field.attenuation("plate", [one.touch_m])[0, 0]
-    return np.maximum(20 * np.log10(np.maximum(gains, 1e-30)), FLOOR_DB)
+    gains = field.attenuation("plate", np.array([one.touch_m]))[0, 0]
+    return np.asarray(np.maximum(20 * np.log10(np.maximum(gains, 1e-30)), FLOOR_DB))
 
 
 def wrong_by(one: NDArray[np.float64], other: NDArray[np.float64]) -> float:

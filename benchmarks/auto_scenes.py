@@ -62,7 +62,7 @@ def prepared(model: Any, network: ContactNetwork, excitations: Any, bands: Bands
     return field, time.process_time() - begin
 
 
-def round_tables(*, follows_outlines: bool) -> tuple[ContactNetwork, list[Excitation]]:
+def round_tables(*, follows_outlines: bool) -> tuple[ContactNetwork, tuple[Excitation, ...]]:
     """Eight round tables of about 0.9 m on a floor, each of a different size, with a phone on each."""
     turn = np.linspace(0.0, 2 * np.pi, 64, endpoint=False)
     disc, oak = 0.5 + 0.5 * np.column_stack([np.cos(turn), np.sin(turn)]), materials.lookup("oak")
@@ -77,7 +77,7 @@ def round_tables(*, follows_outlines: bool) -> tuple[ContactNetwork, list[Excita
         contacts += [Contact("floor", f"table_{k}", at) for at in feet]
         contacts.append(Contact(f"table_{k}", f"phone_{k}", (x + 0.5, y + 0.4, 0.0)))
     sources = [Excitation(f"phone_{k}", 175.0, 175.0, 0.2) for k in range(8)]
-    return ContactNetwork(bodies, contacts, poses), sources
+    return ContactNetwork(bodies, contacts, poses), tuple(sources)
 
 
 def in_sessions(paths: list[str]) -> None:

@@ -169,7 +169,7 @@ def first_files(folder: Path, runs: int) -> None:
 def of_command(source: Path, output: Path, actuator: str) -> float:
     """Run the command line on a file or a folder. Returns its processor time [s]."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    command = [sys.executable, "-m", "scene2hap", "convert", source, "-o", output, "--force", "--quiet"]
+    command = [sys.executable, "-m", "scene2hap", "convert", str(source), "-o", str(output), "--force", "--quiet"]
     subprocess.run([*command, "--actuator", actuator, "--workers", "1"], capture_output=True, check=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime

@@ -208,16 +208,18 @@ def plane_stress(body: Plate) -> tuple[Any, csc_matrix, csc_matrix]:
     basis = skfem.Basis(mesh, skfem.ElementVector(skfem.ElementTriP2()))
     scale = E * body.thickness_m / (1 - nu**2)
 
-    @skfem.BilinearForm
     def stiffness(u: Any, v: Any, _: Any) -> Any:
         strain = sym_grad(u)
         return scale * ddot((1 - nu) * strain + nu * eye(trace(strain), 2), sym_grad(v))
 
-    @skfem.BilinearForm
     def mass(u: Any, v: Any, _: Any) -> Any:
         return body.material.density_kg_m3 * body.thickness_m * dot(u, v)
 
-    return basis, stiffness.assemble(basis).tocsc(), mass.assemble(basis).tocsc()
+    return (
+        basis,
+        skfem.BilinearForm(stiffness).assemble(basis).tocsc(),
+        skfem.BilinearForm(mass).assemble(basis).tocsc(),
+    )
 
 
 def truth(case: Case, points_m: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -41,8 +41,8 @@ Rng = np.random.Generator
 def drawn_plate(rng: Rng, longest_m: float, shortest_m: float = 0.25, feet: str | None = None) -> Plate:
     """Draw a plate whose sides are whole numbers of mesh cells."""
     name = str(rng.choice(list(THICKNESSES_MM)))
-    sides = [GRID_M * round(side / GRID_M) for side in np.sort(rng.uniform(shortest_m, longest_m, 2))[::-1]]
-    return plate(*sides, 1e-3 * round(float(rng.uniform(*THICKNESSES_MM[name])), 1), name, feet)
+    width_m, length_m = (GRID_M * round(side / GRID_M) for side in np.sort(rng.uniform(shortest_m, longest_m, 2)))
+    return plate(length_m, width_m, 1e-3 * round(float(rng.uniform(*THICKNESSES_MM[name])), 1), name, feet)
 
 
 def place_on(rng: Rng, below: Plate, above: Plate, *, near_corner: bool = False) -> tuple[float, float]:

@@ -56,7 +56,7 @@ def frames_of(scene: SceneSnapshot, n_frames: int) -> Frames:
 
 def times_us(
     scene: SceneSnapshot, frames: Frames, n_passes: int, *, with_certificates: bool
-) -> tuple[np.ndarray, list]:
+) -> tuple[np.ndarray, list[Contact]]:
     """Least time of each frame [us], and the contacts at the end."""
     off = mock.patch("scene2hap.contact.certificate_issuer.CertificateIssuer.may_be_issued", return_value=False)
     found, contacts = [], list[Contact]()

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from percepts import FAR_DB, Difference, Percept, distinctness, percept_of
@@ -94,7 +94,7 @@ def main() -> None:
     for key in pairs["fixed filter"]:
         print(f"| {key[0]}, {key[1]} | " + " | ".join(cell(pairs[way][key]) for way in WAYS) + " |")
     print(f"\n| | {' | '.join(WAYS)} |\n|---|" + "---|" * len(WAYS))
-    rows = {
+    rows: dict[str, Callable[[str], object]] = {
         f"distinct, of {len(pairs['fixed filter'])} pairs": lambda way: sum(p.is_distinct for p in pairs[way].values()),
         f"1 JND without level at -{FAR_DB:g} dB": lambda way: sum(p.far_away >= 1.0 for p in pairs[way].values()),
         "least JNDs without level": lambda way: f"{min(p.without_level for p in pairs[way].values()):.2f}",

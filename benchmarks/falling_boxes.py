@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import argparse
 import time
+from collections.abc import Iterable
 from itertools import product
 
 import mujoco
@@ -36,7 +37,7 @@ TRAY = {
 CORNERS = np.array(list(product((-1.0, 1.0), repeat=3)))
 
 
-def numbers(values: object) -> str:
+def numbers(values: Iterable[object]) -> str:
     return " ".join(map(str, values))
 
 

@@ -47,7 +47,7 @@ def on_feet(plate: Plate) -> ContactNetwork:
 
 
 def levels_db(hand: str | None, network: ContactNetwork, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    model = ModalPlate(outside_domain="ignore", hand=hand)
+    model = ModalPlate(outside_domain="ignore", hand=None if hand is None else HANDS[hand])
     field = model.prepare(network, [Excitation("phone", 170.0, 170.0, 0.2)], BANDS)
     return 20 * np.log10(field.attenuation("plate", points)[:, 0])
 
@@ -74,11 +74,11 @@ def costs() -> None:
     print("\n| kitchen | prepare again [s] | first touch of an object, median / largest [ms] | further, median [ms] |")
     print("|---|---|---|---|")
     for hand in (None, "palm"):
-        model = ModalPlate(outside_domain="ignore", hand=hand)
+        model = ModalPlate(outside_domain="ignore", hand=None if hand is None else HANDS[hand])
         model.prepare(network, excitations, AROUND)  # modes are cached from now on
         begin = time.process_time()
         field = model.prepare(network, excitations, AROUND)
-        prepare_s, first, further, seen = time.process_time() - begin, [], [], set[str]()
+        prepare_s, first, further, seen = time.process_time() - begin, list[float](), list[float](), set[str]()
         for object_id, point in points:
             begin = time.process_time()
             field.attenuation(object_id, point[None])

@@ -27,18 +27,22 @@ from numpy.typing import NDArray
 from spawning import bundle_of, on_floor, on_table, thing
 
 from scene2hap import HapticBundle, HapticSession, Plate, Pose, SceneSnapshot, Touch, bake, load_scene
+from scene2hap.common.arrays import Floats
 from scene2hap.demo import kitchen_path
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.impact import burst_of
+from scene2hap.propagation.protocol import PropagationModel
 from scene2hap.session.impacts.gains import struck_later
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.scene_state import SceneState
 
 UPDATES_HZ, IMPACTS_HZ, RATE_HZ, BLOCK, G = 90, 100, 48_000, 256, 9.81
 LOWEST_HZ = 24.0
 FALL_M, CUP_M = 0.2, 0.1
 
 
-def struck(session: HapticSession, touches: list[Touch], seconds: float, seed: int) -> tuple[NDArray, NDArray, int]:
+def struck(
+    session: HapticSession, touches: list[Touch], seconds: float, seed: int
+) -> tuple[Floats, NDArray[np.float32], int]:
     """Strike the touched object. Returns times [ms] of each update with its strikes, samples, and number of strikes."""
     rng, due, n_struck = np.random.default_rng(seed), 0.0, 0
     times, heard = [], []
@@ -58,7 +62,7 @@ def struck(session: HapticSession, touches: list[Touch], seconds: float, seed: i
 
 def falling(
     session: HapticSession, touches: list[Touch], spots: list[Pose], seconds: float
-) -> tuple[NDArray, NDArray, int]:
+) -> tuple[Floats, NDArray[np.float32], int]:
     """Let cups fall on the touched object. Returns times [ms] of each update, samples, and number of landings."""
     fall_s = (2 * FALL_M / G) ** 0.5
     period_s = 2 * fall_s + 0.2
@@ -103,12 +107,14 @@ def prepared_ahead(kind: str, scene: SceneSnapshot, bundle: HapticBundle, seed: 
     Half of the objects of `elsewhere` are direct neighbours of the touched object.
     """
     rng, model = np.random.default_rng(seed), MODELS.build({"kind": kind})
+    assert isinstance(model, PropagationModel)
     session = HapticSession(scene, bundle, {"propagation": model, "gain_limit_db": None})
     state, spent_ms, errors_db, n_next, n_felt = session._state, [], [], 0, 0
     ids = sorted(x for x in state.graph.beside if isinstance(state.bodies.get(x), Plate))
     session.update()
     session.wait_prepared()
     ahead = session._impacts._ahead
+    assert ahead is not None
     for touched in rng.choice(ids, min(8, len(ids)), replace=False).tolist():
         hand = somewhere(state, touched, rng)
         session.update(touches=[Touch("left", touched, hand)])
@@ -148,7 +154,7 @@ def somewhere(state: SceneState, object_id: str, rng: np.random.Generator) -> tu
     return x, y, z
 
 
-def above_1_khz_db(heard: NDArray) -> float:
+def above_1_khz_db(heard: NDArray[np.float32]) -> float:
     """Energy above 1 kHz relative to the total energy of the rendered samples [dB]."""
     power = np.abs(np.fft.rfft(heard.astype(np.float64) * np.hanning(len(heard)))) ** 2
     f = np.fft.rfftfreq(len(heard), 1 / RATE_HZ)

@@ -27,7 +27,7 @@ def main() -> None:
     statements = ["pass", "import scene2hap", "from scene2hap import HapticSession"]
     for statement in statements:
         seconds(statement)  # warm the caches
-    times = {statement: [] for statement in statements}
+    times: dict[str, list[float]] = {statement: [] for statement in statements}
     for _ in range(runs):
         for statement in statements:
             times[statement].append(seconds(statement))

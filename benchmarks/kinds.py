@@ -175,12 +175,12 @@ class Likeness:
         from vibromaf.metrics.stsim import STSIM
 
         def likeness(one: Signal, other: Signal) -> float:
-            return min(STSIM.compute_sim(one, other), STSIM.compute_sim(other, one))
+            return float(min(STSIM.compute_sim(one, other), STSIM.compute_sim(other, one)))
 
         n = 14336
         sounds = [[repeated(clip, 2800, n) for clip in scene.loops.values()] for scene in scenes]
         to_itself = [likeness(self._support(x[: n // 2]), self._support(x[n // 2 :])) for all_ in sounds for x in all_]
-        least = np.percentile(to_itself, 5)
+        least = float(np.percentile(to_itself, 5))
         return [sum(likeness(a, b) < least for a, b in combinations(map(self._support, all_), 2)) for all_ in sounds]
 
 
@@ -200,10 +200,10 @@ def by_vibromaf(scenes: list[Kinds]) -> list[tuple[int, int, int]]:
         takes = {name: [loops[name], *map(measure.support, clips)] for name, clips in scene.takes.items()}
         pairs.append({(a, b): measure.of(loops[a], loops[b]) for a, b in combinations(loops, 2)})
         similar.append({name: [measure.of(x, y) for x, y in combinations(clips, 2)] for name, clips in takes.items()})
-    least = np.percentile([x for kinds in similar for values in kinds.values() for x in values], 5)
+    least = float(np.percentile([x for kinds in similar for values in kinds.values() for x in values], 5))
     return [
         (
-            sum(x < np.percentile(kinds[a] + kinds[b], 5) for (a, b), x in found.items()),
+            sum(x < float(np.percentile(kinds[a] + kinds[b], 5)) for (a, b), x in found.items()),
             sum(x < least for x in found.values()),
             before,
         )

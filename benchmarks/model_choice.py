@@ -42,8 +42,8 @@ from scene2hap.propagation.domain import ThinPlateWarning
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 from scene2hap.propagation.protocol import ContactNetwork
 from scene2hap.session import HapticSession
-from scene2hap.session.network import excitations_of
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.network import excitations_of
+from scene2hap.session.present_scene.scene_state import SceneState
 
 BANDS = Bands.third_octaves(10, 1000)
 N_POINTS, SEED = 200, 11
@@ -77,13 +77,14 @@ def scene_input(
         object_id = str(rng.choice(ids))
         low, high = scene.object(object_id).bounds_m
         points.append((object_id, rng.uniform(low, high)))
-    return network, excitations_of(sources.active_rows(), state.bodies, state.haptics), points
+    loops = [(row.source_id, row.loop) for row in sources.active_rows()]
+    return network, excitations_of(loops, state.bodies, state.haptics), points
 
 
 def levels_db(field: Any, points: list[tuple[str, NDArray[np.float64]]]) -> NDArray[np.float64]:
     """Band levels (n_points, n_sources, n_bands) [dB], no lower than `LEAST_DB`."""
     gains = np.array([field.attenuation(object_id, point[None])[0] for object_id, point in points])
-    return np.maximum(20 * np.log10(np.maximum(gains, 1e-12)), LEAST_DB)
+    return np.asarray(np.maximum(20 * np.log10(np.maximum(gains, 1e-12)), LEAST_DB))
 
 
 @dataclass(frozen=True)
@@ -111,7 +112,7 @@ def measure(path: str, name: str) -> Measured:
     for _ in range(2):
         prepared = chosen.prepare(network, excitations, BANDS)
         times.append(time.process_time())
-    first, further, seen = [], [], set[str]()
+    first, further, seen = list[float](), list[float](), set[str]()
     for object_id, point in points:
         begun = time.process_time()
         prepared.attenuation(object_id, point[None])

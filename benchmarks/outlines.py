@@ -81,7 +81,7 @@ def triangulated(*rings: Corners, tips: Corners = (), least_m: float = SIDE_M) -
 
     def side_m(points: NDArray[np.float64]) -> NDArray[np.float64]:
         away = np.hypot(*(points[:, None] - fine_at).transpose(2, 0, 1)).min(axis=1, initial=np.inf)
-        return np.minimum(SIDE_M, least_m + 0.4 * away)
+        return np.asarray(np.minimum(SIDE_M, least_m + 0.4 * away))
 
     rim, parts = [], np.linspace(0.0, 1.0, 401)
     for ring in outline.rings_m:

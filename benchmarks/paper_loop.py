@@ -39,8 +39,8 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.propagation.bands.band_rms import BandRms
 from scene2hap.propagation.paths.live_law import LiveLaw, LivePaths
-from scene2hap.session.audibility import Audibility
-from scene2hap.session.mix.playback import Playback
+from scene2hap.session.gains.audibility import Audibility
+from scene2hap.session.mix.loop_mixers import LoopMixers
 
 Clock = Callable[[], float]
 
@@ -64,6 +64,7 @@ class PaperLoop:
         self.k = {}
         for name, haptics in room.bundle.objects.items():
             m, h = haptics.material, haptics.estimated_size_m[2]
+            assert m is not None
             stiffness = m.youngs_modulus_pa * h**3 / (12 * (1 - m.poisson_ratio**2))
             self.k[name] = (m.density_kg_m3 * h * omega**2 / stiffness) ** 0.25
         self.sources = list(room.bundle.loops)
@@ -85,10 +86,10 @@ class PaperLoop:
                 gains[hand, row] = np.maximum(gains[hand, row], np.exp(-loss))
         return gains
 
-    def graph(self) -> nx.Graph:
+    def graph(self) -> nx.Graph[str]:
         low, high = self.low - TOLERANCE_M / 2, self.high + TOLERANCE_M / 2
         meet = ((low[:, None] <= high) & (high[:, None] >= low)).all(axis=2)
-        graph = nx.Graph()
+        graph: nx.Graph[str] = nx.Graph()
         graph.add_nodes_from(self.ids)
         for i, j in np.argwhere(np.triu(meet, 1)):
             point = (np.maximum(low[i], low[j]) + np.minimum(high[i], high[j])) / 2
@@ -104,6 +105,7 @@ class OurLoop:
         wavenumbers = {
             name: Plate(*haptics.estimated_size_m, haptics.material).wavenumber_per_root_omega
             for name, haptics in room.bundle.objects.items()
+            if haptics.material is not None
         }
         self.sources = list(room.bundle.loops)
         self.paths = LivePaths(self.graph, wavenumbers, _crossing, self.sources, N_HOPS)
@@ -210,7 +212,7 @@ def alone_in(
 ) -> np.ndarray:
     """Times (n_frames,) [s] of the updates of a new session."""
     session = session_of(room, max_hops)
-    return times_of([lambda i: session.update(*frames[i])], n_frames, time.thread_time)[0]
+    return np.asarray(times_of([lambda i: session.update(*frames[i])], n_frames, time.thread_time)[0])
 
 
 def worst_of(seconds: np.ndarray) -> float:
@@ -269,7 +271,7 @@ def split(n_objects: int, kind: str, n_frames: int) -> None:
         "paths": (LivePaths, "least_costs"),
         "gains": (LiveLaw, "at"),
         "worth": (Audibility, "silence"),
-        "mixer": (Playback, "set_gains"),
+        "mixer": (LoopMixers, "set_gains"),
         "rest": (HapticSession, "update"),
     }
     with watch.watch(**methods):
@@ -289,10 +291,7 @@ def at_rest(n_objects: int, n_updates: int) -> None:
     rng = np.random.default_rng(0)
     points = {name: room.scene.object(name).bounds_m for name in names}
     frames = [
-        [
-            Touch(("left", "right")[k % 2], name, tuple(rng.uniform(*points[name]).tolist()))
-            for k, name in enumerate(names)
-        ]
+        [Touch(("left", "right")[k % 2], x, rng.uniform(points[x][0], points[x][1])) for k, x in enumerate(names)]
         for _ in range(n_updates + 20)
     ]
     ours, whole = times_of(
@@ -311,8 +310,15 @@ def growth(n_frames: int) -> None:
     graphs = {n: ContactGraph(room.scene) for n, room in rooms.items()}
     frames = {n: frames_of(room, n_frames) for n, room in rooms.items()}
     gc.freeze()
-    whole = times_of([lambda i, n=n: sessions[n].update(*frames[n][i]) for n in rooms], n_frames, time.thread_time)
-    part = times_of([lambda i, n=n: graphs[n].update(frames[n][i][0]) for n in rooms], n_frames, time.thread_time)
+
+    def update_of(n: int) -> Callable[[int], object]:
+        return lambda i: sessions[n].update(*frames[n][i])
+
+    def move_of(n: int) -> Callable[[int], object]:
+        return lambda i: graphs[n].update(frames[n][i][0])
+
+    whole = times_of([update_of(n) for n in rooms], n_frames, time.thread_time)
+    part = times_of([move_of(n) for n in rooms], n_frames, time.thread_time)
     for row, n in enumerate(rooms):
         print(f"| {n} | {1e6 * np.median(part[row]):.1f} | {1e6 * np.median(whole[row]):.1f} |")
 

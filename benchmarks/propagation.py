@@ -118,12 +118,13 @@ def touching(
     fields: dict[str, PropagationField], object_id: str, point_m: tuple[float, float, float]
 ) -> dict[str, float]:
     """Time per touch [s]: the best of nine turns of fifty."""
+    points = np.array([point_m])
     for field in fields.values():
-        field.attenuation(object_id, [point_m])
+        field.attenuation(object_id, points)
     best = dict.fromkeys(fields, np.inf)
     for _ in range(9):
         for name, field in fields.items():
-            best[name] = min(best[name], seconds(partial(field.attenuation, object_id, [point_m]), 50))
+            best[name] = min(best[name], seconds(partial(field.attenuation, object_id, points), 50))
     return best
 
 

@@ -21,6 +21,7 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,9 +35,10 @@ from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.felt_component import felt_component_of
 from scene2hap.audio.files import read_clip
-from scene2hap.audio.levels import drive_db, sensation_level_db, threshold_db
+from scene2hap.audio.levels import drive_db, sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
+from scene2hap.audio.threshold import threshold_db
 from scene2hap.haptics import ActuatorProfile
 
 INTENSITY, VARIES_DB, LEAST_S = 0.3, 6.0, 0.2
@@ -47,7 +49,7 @@ Signal = NDArray[np.float64]
 def levels_db(x: Signal, rate: int, step_s: float) -> Signal:
     """Level of each step of `step_s` [dB]."""
     n = round(step_s * rate)
-    return 10 * np.log10((x[: len(x) // n * n].reshape(-1, n) ** 2).mean(axis=1) + 1e-12)
+    return np.asarray(10 * np.log10((x[: len(x) // n * n].reshape(-1, n) ** 2).mean(axis=1) + 1e-12))
 
 
 def range_db(level: Signal) -> float:
@@ -130,7 +132,8 @@ def judged(clip: AudioClip, kind: str, actuator: str) -> str:
         band_db=component.band_db,
     )
     heard = clip.samples.astype(np.float64)
-    felt = convert_clip(clip, CONVERTERS.build(kind), context).samples.astype(np.float64)
+    converter: Any = CONVERTERS.build(kind)
+    felt = convert_clip(clip, converter, context).samples.astype(np.float64)
     before, after = (levels_db(x, rate, 0.1) for x in (heard, felt))
     if range_db(before) > VARIES_DB:
         cell = f"r {np.corrcoef(10 ** (before / 20), 10 ** (after / 20))[0, 1]:.2f}"

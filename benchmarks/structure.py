@@ -83,7 +83,7 @@ class Source:
         self.files = {self._name(path, root): path for path in sorted(root.rglob("*.py"))}
         self.compiled = sorted([*root.rglob("*.pyx"), *root.rglob("*.pxd")])
         self.root = root
-        self.imports = nx.DiGraph()
+        self.imports: nx.DiGraph[str] = nx.DiGraph()
         self.imports.add_nodes_from(self.files)
         for name, path in self.files.items():
             self.imports.add_edges_from((name, found) for found in self._imported(name, path) if found != name)
@@ -123,8 +123,8 @@ class Source:
         cython = sum(count(path) for path in self.compiled if path.relative_to(self.root).parts[0] == package)
         return python, cython
 
-    def package_graph(self) -> nx.DiGraph:
-        graph = nx.DiGraph()
+    def package_graph(self) -> nx.DiGraph[str]:
+        graph: nx.DiGraph[str] = nx.DiGraph()
         graph.add_nodes_from(self.packages)
         for a, b in self.imports.edges:
             if PACKAGE not in (a, b) and package_of(a) != package_of(b):
@@ -191,8 +191,11 @@ def table(before: Source, after: Source) -> None:
     for title, source in (("before", before), ("after", after)):
         rings = [each for each in nx.strongly_connected_components(source.package_graph()) if len(each) > 1]
         print(f"\nCycles of whole packages {title}: {'; '.join(', '.join(sorted(each)) for each in rings) or 'none'}.")
-        rings = [ring for package in source.packages for ring in source.cycles(package)]
-        inside = [", ".join(name.partition(".")[2] for name in ring) for ring in rings]
+        inside = [
+            ", ".join(name.partition(".")[2] for name in ring)
+            for package in source.packages
+            for ring in source.cycles(package)
+        ]
         print(f"Cycles inside packages {title}: {'; '.join(inside) or 'none'}.")
 
 

@@ -22,9 +22,9 @@ import tempfile
 from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from attacks.running import Verdict, run
+from stress.attacks.running import Verdict, run
 
 FAMILIES = (
     "scene_files",

@@ -22,6 +22,7 @@ import time
 from collections import defaultdict
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.signal import butter, sosfiltfilt
@@ -115,13 +116,15 @@ def loops(real: dict[str, tuple[Signal, int]], seed: int, draws: int | None) -> 
         component = felt_component_of(heard, rate, LEVEL_DB, ActuatorProfile())
         context = ConversionContext(intensity=0.3)
         if component is not None:
-            places = {
-                "own_hz": component.frequency_hz,
-                "target_hz": component.carrier_hz,
-                "rough_hz": component.rough_hz,
-            }
-            context = replace(context, **places, band_q=component.band_q)
-        felt = convert_clip(clip, CONVERTERS.build(converter), context).samples.astype(float)
+            context = replace(
+                context,
+                own_hz=component.frequency_hz,
+                target_hz=component.carrier_hz,
+                rough_hz=component.rough_hz,
+                band_q=component.band_q,
+            )
+        built: Any = CONVERTERS.build(converter)
+        felt = convert_clip(clip, built, context).samples.astype(float)
         begin = time.process_time()
         seam = find_seam(heard, rate, felt)
         slowest = max(slowest, time.process_time() - begin)

@@ -20,15 +20,15 @@ from pathlib import Path
 
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "integration" / "bridge"))
 
-from process_use import memory_mb
-from test_faults import ON_TABLE, mutated
 from websockets.exceptions import ConnectionClosed
 
 from bridge_client import Client
+from mutated_messages import ON_TABLE, mutated
 from scene2hap import Box, Pose, SceneObject, SceneSnapshot, bake
+from stress.process_use import memory_mb
 
 NO_POSES = np.empty((0, 7), np.float32)
 

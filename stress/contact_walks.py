@@ -17,6 +17,7 @@ import time
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -120,6 +121,10 @@ class Walk:
         return graph.contacts == ContactGraph(state).contacts
 
 
+def _given(scene: SceneSnapshot, seed: int) -> SceneSnapshot:
+    return scene
+
+
 def scenes(paths: list[Path], n_objects: int) -> Iterator[tuple[str, Callable[[int], SceneSnapshot]]]:
     """Yield a name and a function that makes the room from a seed."""
     rooms = {
@@ -135,7 +140,7 @@ def scenes(paths: list[Path], n_objects: int) -> Iterator[tuple[str, Callable[[i
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             scene = load_scene(path)
-        yield path.stem, lambda _, scene=scene: scene
+        yield path.stem, partial(_given, scene)
 
 
 def main() -> int:

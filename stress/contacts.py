@@ -55,10 +55,10 @@ def moved(item: SceneObject, onto: SceneObject, up: int, rng: random.Random) -> 
     turn = Pose()
     if rng.random() < 0.5:
         angle = rng.choice([math.pi / 2, rng.uniform(-3.0, 3.0)])
-        axis = np.eye(3)[up]
+        around = np.eye(3)[up]
         if rng.random() < 0.2:
-            axis, angle = np.array([rng.gauss(0, 1) for _ in range(3)]), rng.uniform(-0.3, 0.3)
-        x, y, z = (math.sin(angle / 2) * axis / np.linalg.norm(axis)).tolist()
+            around, angle = np.array([rng.gauss(0, 1) for _ in range(3)]), rng.uniform(-0.3, 0.3)
+        x, y, z = (math.sin(angle / 2) * around / np.linalg.norm(around)).tolist()
         turn = Pose((0.0, 0.0, 0.0), (x, y, z, math.cos(angle / 2)))
     turned = turn.compose(Pose((0.0, 0.0, 0.0), item.pose.rotation_xyzw)).rotation_xyzw
     x, y, z = place.tolist()

@@ -16,6 +16,7 @@ import sys
 import tempfile
 import time
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -55,7 +56,8 @@ def main() -> None:
                     first = next(name for name in made.files if name.startswith(f"{stem}."))
                     path = Path(place) / first
                     range_hz = settings.get("range_hz", RANGE_HZ)
-                    clip = (read_haptic if kind == "haptic" else read_ahap)(path, range_hz=range_hz)
+                    read = read_haptic if kind == "haptic" else read_ahap
+                    clip = replace(read(path), range_hz=range_hz)
                     again = {"": compose_haptic(clip)} if kind == "haptic" else compose_ahap(clip)
                     same = all(
                         json.loads(made.files[_name(stem, ending, path)]) == _plain(one)

@@ -29,15 +29,16 @@ from collections.abc import Callable
 from pathlib import Path
 
 import trimesh
-from restarted_child import Child
-from usd_seeds import usd_files
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
+
+from habitat_builder import mutated_dataset
 from scene2hap import load_scene
 from scene2hap.demo import kitchen_path
 from scene2hap.errors import Scene2HapError
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
-from habitat_builder import mutated_dataset
+from stress.restarted_child import Child
+from stress.usd_seeds import usd_files
 
 HABITAT = ".scene_instance.json"
 Mutation = Callable[[bytes, random.Random], bytes]

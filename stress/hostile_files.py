@@ -35,14 +35,14 @@ from pathlib import Path
 from typing import Any
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parents[1]))
 
 import numpy as np
-from hostile.damage import damage, odd_file
-from hostile.readers import KEY, READERS, Reader
-from restarted_child import Child
 
 from scene2hap.errors import Scene2HapError
+from stress.hostile.damage import damage, odd_file
+from stress.hostile.readers import KEY, READERS, Reader
+from stress.restarted_child import Child
 
 LONGEST_MESSAGE = 3000
 MOST_VALUES = 200_000

@@ -106,7 +106,7 @@ def impacts_of(name: str, frames: Frames) -> list[float]:
 
 def frame_times(hz: int, lasts_s: float, rng: np.random.Generator, *, late: float = 0.0) -> list[float]:
     lengths = np.where(rng.random(math.ceil(lasts_s * hz)) < late, 2, 1) / hz
-    return (0.01 + np.cumsum(lengths)).tolist()
+    return [float(0.01 + x) for x in np.cumsum(lengths)]
 
 
 def turned(x: float, y: float, z: float, turn: Rotation) -> Pose:

@@ -19,7 +19,7 @@ import tarfile
 import time
 import warnings
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -77,7 +77,7 @@ def main() -> int:
     return show(scene, found, reports(backend), time.monotonic() - started, healthy=healthy)
 
 
-def show(scene: SceneSnapshot, found: Inference, layers: dict[str, object], wall_s: float, *, healthy: bool) -> int:
+def show(scene: SceneSnapshot, found: Inference, layers: Mapping[str, object], wall_s: float, *, healthy: bool) -> int:
     """Print the outcomes. Returns the exit status."""
     outcomes: Counter[str] = Counter()
     for item in scene.objects:

@@ -116,7 +116,7 @@ def some_plate(rng: random.Random) -> Plate:
     """Draw a plate, from the size of a coin to that of a floor."""
     longer = math.exp(rng.uniform(math.log(0.01), math.log(10.0)))
     aspect = math.exp(rng.uniform(0.0, math.log(100.0)))
-    sides = rng.sample((longer, longer / aspect), 2)
+    length_m, width_m = rng.sample((longer, longer / aspect), 2)
     thickness_m = longer / aspect * 10 ** rng.uniform(-3.0, 0.0)
     material = Material(
         "drawn",
@@ -126,7 +126,7 @@ def some_plate(rng: random.Random) -> Plate:
         loss_factor=10 ** rng.uniform(-4.0, 0.0),
     )
     mass_kg = None if rng.random() < 0.7 else 10 ** rng.uniform(-6.0, 4.0)
-    return Plate(*sides, thickness_m, material, rng.choice(EDGES), object_mass_kg=mass_kg)
+    return Plate(length_m, width_m, thickness_m, material, rng.choice(EDGES), object_mass_kg=mass_kg)
 
 
 def some_points(plate: Plate, rng: random.Random) -> Floats:
@@ -165,7 +165,7 @@ class Case:
 
     def receptance(self, model: Any, driven: int) -> NDArray[np.complex128]:
         """From one point to all of them (n_points, n_frequencies) [m/N]."""
-        return model.plate_receptance(self.plate, self.points[driven], self.points, self.f)
+        return np.asarray(model.plate_receptance(self.plate, self.points[driven], self.points, self.f))
 
     def gains(self, model: Any) -> Floats:
         """Gains at all points (n_points,) of a source that stands inside the plate."""
@@ -174,7 +174,7 @@ class Case:
         contact = Contact("plate", "source", tuple(on_top[-1].tolist()))
         network = ContactNetwork({"plate": self.plate}, [contact])
         scene = model.prepare(network, [Excitation("source", hz, hz, self.source_kg)], Bands.dominant())
-        return scene.attenuation("plate", on_top)[:, 0, 0]
+        return np.asarray(scene.attenuation("plate", on_top)[:, 0, 0])
 
 
 def query(case: Case, model: Any, limit_s: float, outcome: Outcome, name: str, *, solves_slow: bool) -> None:

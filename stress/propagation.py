@@ -24,8 +24,10 @@ import time
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import partial
 from importlib.metadata import version
 from types import FrameType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,7 +54,7 @@ from scene2hap.propagation.lattice.bending_lattice import bending_lattice
 from scene2hap.propagation.lattice.stepping import ExactStepper, NewmarkStepper, State, Stepper
 from scene2hap.propagation.mass_spring_damper import CoarsenedWarning, MassSpringDamper
 
-MODELS = {
+MODELS: dict[str, Any] = {
     "exponential": ExponentialPlate(),
     "infinite": InfinitePlate(),
     "modal": ModalPlate(),
@@ -140,7 +142,8 @@ def some_plate(rng: random.Random) -> Plate:
     length = between(0.01, 30.0)
     sides = (length, length / rng.choice([1.0, 1000.0, between(1.0, 1000.0)]))
     boundary = "".join(rng.choice("FFSC") for _ in range(4))
-    return Plate(*rng.sample(sides, 2), between(1e-6, 10.0), material, boundary)
+    length_m, width_m = rng.sample(sides, 2)
+    return Plate(length_m, width_m, between(1e-6, 10.0), material, boundary)
 
 
 def some_frequencies(plate: Plate, rng: random.Random) -> NDArray[np.float64]:
@@ -164,9 +167,9 @@ def kernels(number: int, tallies: dict[str, Tally], limit_s: float) -> None:
     points = np.array([[rng.choice([0.0, 1.0, rng.random()]) for _ in range(2)] for _ in range(4)]) * size
     for name, model in MODELS.items():
         case = f"kernel {number}, {name}, {plate}"
-        tallies[name].run(case, limit_s, lambda model=model: model.plate_transfer(plate, points[0], points, f))
+        tallies[name].run(case, limit_s, partial(model.plate_transfer, plate, points[0], points, f))
         if not isinstance(model, ExponentialPlate):
-            tallies[name].run(case, limit_s, lambda model=model: model.plate_receptance(plate, points[0], points, f))
+            tallies[name].run(case, limit_s, partial(model.plate_receptance, plate, points[0], points, f))
 
 
 def some_scene(rng: random.Random) -> tuple[ContactNetwork, list[Excitation]]:
@@ -208,7 +211,7 @@ def scenes(number: int, tallies: dict[str, Tally], limit_s: float) -> None:
     touch = np.array([[rng.random(), rng.random(), 0.0] for _ in range(2)])
     for name, model in MODELS.items():
 
-        def everywhere(model: ModalPlate = model) -> NDArray[np.float64]:
+        def everywhere(model: Any = model) -> NDArray[np.float64]:
             prepared = model.prepare(network, excitations, bands)
             gains = np.array([prepared.attenuation(object_id, touch) for object_id in network.bodies])
             assert gains.shape == (len(network.bodies), 2, len(excitations), bands.n_bands)

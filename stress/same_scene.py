@@ -2,7 +2,7 @@
 
 python stress/same_scene.py [SCENE.glb ...] [--minutes 10] [--seed 0] [--least-db 0.05]
 
-The changes are those of `tests/property/test_same_scene.py`. The scenes are the given ones, with y up and in metres,
+The changes are those of `tests/support/same_scene.py`. The scenes are the given ones, with y up and in metres,
 and rooms of `benchmarks/busy_room.py`, in turns. Each is baked with the offline lexicon before and after the change, so
 that surfaces, masses, contacts and gains are all computed again. Gains below -80 dB count as -80 dB. Prints a line for
 each case that differs, with the largest difference, and exits with 1 if there was any.
@@ -23,11 +23,10 @@ from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "property"))
 
 from busy_room import busy_room, floor_room, furnished_room, shelf_room
-from test_same_scene import CHANGES, Same, described_again
 
+from same_scene import CHANGES, Same, described_again
 from scene2hap import HapticSession, SceneObject, SceneSnapshot, Touch, bake, load_scene
 
 N_TOUCHES = 60

@@ -27,9 +27,8 @@ from pathlib import Path
 
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
-
-from process_use import memory_mb, n_files
 
 from scene2hap.devices.framing import cobs
 from scene2hap.devices.framing.frames import Frame, FrameParser, from_datagram, pcm, to_wire
@@ -37,6 +36,7 @@ from scene2hap.devices.protocol import Block, SinkFormat
 from scene2hap.devices.reference_device import ReferenceDevice
 from scene2hap.devices.serial_amp import SerialAmplifierSink
 from serial_bench import Plug, eventually
+from stress.process_use import memory_mb, n_files
 from wire_damage import damaged
 
 FORMAT = SinkFormat(4000, ("left", "right"))
@@ -220,11 +220,12 @@ def caller() -> tuple[bool, str]:
         parts.append(f"open {opened}")
         plug.put_in()
         eventually(lambda: plug.device.accepted_frames > 400)
-        for name, change in (
-            ("playing", lambda: None),
-            ("no credit", lambda: setattr(plug.device, "grants_credit", False)),
-            ("unplugged", plug.pull_out),
-        ):
+        changes: dict[str, Callable[[], object]] = {
+            "playing": lambda: None,
+            "no credit": lambda: setattr(plug.device, "grants_credit", False),
+            "unplugged": plug.pull_out,
+        }
+        for name, change in changes.items():
             change()
             times = _times(lambda: sink.stats)
             idle = _times(lambda: None)

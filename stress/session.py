@@ -25,14 +25,14 @@ from pathlib import Path
 
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
-
-from process_use import memory_mb
 
 from edge_scenes import EDGE_SCENES, Bundled
 from scene2hap import HapticSession, Pose, Touch
 from scene2hap.propagation.domain import ThinPlateWarning
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
+from stress.process_use import memory_mb
 
 UPDATES_PER_S = 1000
 FRAMES_PER_UPDATE = RATE // UPDATES_PER_S

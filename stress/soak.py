@@ -22,13 +22,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
-
-from process_use import memory_mb, n_files, n_threads, stolen_s
 
 from scene2hap.devices.soundcard import SoundCardSink
 from sound_server import DEVICE, RATE, SoundServer, missing
 from sound_takes import PERIOD, SETTLING, Game, safe_period, session_on, undisturbed
+from stress.process_use import memory_mb, n_files, n_threads, stolen_s
 
 _LOUDEST_ERROR = 1e-3
 """Fraction of full scale by which a recorded period may differ from the mix."""

@@ -26,18 +26,19 @@ from collections import Counter
 from collections.abc import Callable
 from contextlib import nullcontext
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
-
-from process_use import memory_mb, n_files, n_threads, stolen_s
 
 from scene2hap import HapticSession
 from scene2hap.devices.protocol import SinkEvent
 from scene2hap.devices.soundcard import SoundCardSink
 from sound_server import DEVICE, RATE, SoundServer, missing
 from sound_takes import TONES_HZ, TOUCHES, Game, Verdict, judge, session_on, take, undisturbed
+from stress.process_use import memory_mb, n_files, n_threads, stolen_s
 
 
 def main() -> None:
@@ -88,7 +89,7 @@ def low(arguments: argparse.Namespace) -> None:
         print(f"  update to monitor median {1e3 * np.median(times):.0f}, largest {1e3 * max(times):.0f} ms")
 
 
-def onsets_s(server: SoundServer, latency: float | str, n: int, **settings: int) -> list[float]:
+def onsets_s(server: SoundServer, latency: float | str, n: int, **settings: Any) -> list[float]:
     """Times [s] from the first update with a touch to the first frame at the monitor."""
     found = []
     for _ in range(n):

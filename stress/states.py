@@ -50,8 +50,8 @@ MOST_CLICK_DB, MOST_DRIFT_S, MOST_LATE_S, MOST_OFF_DB = -60.0, 1 / SLOW, 0.08, 1
 LOW_HZ, HIGH_HZ, WINDOW = 1150.0, 3500.0, RATE // 20
 BAND = firwin(2001, (LOW_HZ, HIGH_HZ), pass_zero=False, window=("kaiser", 10.06), fs=RATE)
 TOP_M, HOME = 0.72, Pose((0.1, 0.725, 0.4))
-EVENTS = ("touches begin", "touches move", "touches end", "object moves", "object lifted", "start or stop", "on or off")
-EVENTS += ("other state",)
+_OF_TOUCHES = ("touches begin", "touches move", "touches end")
+EVENTS = (*_OF_TOUCHES, "object moves", "object lifted", "start or stop", "on or off", "other state")
 Signal = NDArray[np.floating]
 
 
@@ -69,11 +69,15 @@ def game(
     """Frame and name of each event, and the samples (n, 2). With strikes, sums reach full scale."""
     snapshot, bundle = table_with_two_phones()
     loops = {x: {s: tone_loop(2 * int(rng.integers(20, 200))) for s in its} for x, its in bundle.loops.items()}
-    times = {"start_up_s": rng.uniform(0.1, 0.6), "wind_down_s": rng.uniform(0.1, 0.6), "spins": rng.random() < 0.5}
+    times: dict[str, Any] = {
+        "start_up_s": rng.uniform(0.1, 0.6),
+        "wind_down_s": rng.uniform(0.1, 0.6),
+        "spins": rng.random() < 0.5,
+    }
     phone = bundle.objects["phone"]
     objects = {"phone": replace(phone, states=tuple(replace(state, **times) for state in phone.states))}
     made = HapticSession(
-        snapshot, replace(bundle, objects=bundle.objects | objects, loops=loops), {"propagation": kind}
+        snapshot, replace(bundle, objects={**bundle.objects, **objects}, loops=loops), {"propagation": kind}
     )
     made.update()
     made.wait_prepared()
@@ -98,7 +102,9 @@ def game(
         for frame in range(int(rng.integers(20 if name == "strike" else 1, 40))):
             made.update({} if frame else moved, touches)
             if name == "strike" and not frame:
-                for by in rng.choice([None, "cup", "block", "alarm"], rng.integers(1, 4), replace=False).tolist():
+                for by in rng.choice(
+                    np.array([None, "cup", "block", "alarm"]), rng.integers(1, 4), replace=False
+                ).tolist():
                     made.strike("table", at, speed_m_s=float(rng.uniform(0.1, 5.0)), with_object=by)
             heard += [made.render(BLOCK) for _ in range(int(rng.integers(2, 5)))]
     made.update()
@@ -129,8 +135,8 @@ def life(rng: np.random.Generator, hours: float) -> tuple[float, float, int]:
     clip = AudioClip((0.3 * np.sin(2 * np.pi * tone_hz * np.arange(n) / rate)).astype(np.float32), rate)
     on_s, off_s = rng.uniform(0.3, 3.0, 2).tolist()
     states = tuple(replace(state, on_s=on_s, off_s=off_s) for state in bundle.objects["alarm"].states)
-    objects = bundle.objects | {"alarm": replace(bundle.objects["alarm"], states=states)}
-    loops = bundle.loops | {"phone": {"ringing": HapticLoop(clip, clip, tone_hz, tone_hz)}}
+    objects = {**bundle.objects, "alarm": replace(bundle.objects["alarm"], states=states)}
+    loops = {**bundle.loops, "phone": {"ringing": HapticLoop(clip, clip, tone_hz, tone_hz)}}
     made = HapticSession(snapshot, replace(bundle, objects=objects, loops=loops), {"sample_rate_hz": SLOW})
     touches = [Touch("left", "phone", HOME.position_m), Touch("right", "alarm", (1.5, 0.725, 0.4))]
     made.update(touches=touches)
@@ -145,8 +151,8 @@ def life(rng: np.random.Generator, hours: float) -> tuple[float, float, int]:
             begin, place_s = made.position, made.position_s("phone")
             lap_s, clock_s = Fraction(n, rate), Fraction(begin, SLOW)
             wrong_s = abs(place_s - float(clock_s % lap_s))
-            heard = made.render(SLOW)[:, 0] * window
-            turn = 1j * (heard * np.exp(-2j * np.pi * tone_hz * (place_s + seconds))).sum()
+            second = made.render(SLOW)[:, 0] * window
+            turn = 1j * (second * np.exp(-2j * np.pi * tone_hz * (place_s + seconds))).sum()
             drift_s = max(drift_s, min(wrong_s, float(lap_s) - wrong_s), abs(np.angle(turn)) / (2 * np.pi * tone_hz))
             made.update(touches=touches)  # a switch during that second without an update
             made.render(SLOW // 25)
@@ -172,7 +178,11 @@ Happens = Callable[[HapticSession], Any]
 
 
 def switched(*, on: bool) -> Happens:
-    return lambda one: (one.set_source("phone", on=on), one.update(touches=[ON_PHONE]))
+    def happens(one: HapticSession) -> None:
+        one.set_source("phone", on=on)
+        one.update(touches=[ON_PHONE])
+
+    return happens
 
 
 def struck(one: HapticSession) -> None:
@@ -247,14 +257,15 @@ def first_difference(one: HapticSession, other: HapticSession) -> int:
 
 
 def latency(seed: int, draws: int | None) -> bool:
-    rows, names = [], [*LATENCIES, "landing"]
+    rows: dict[str, list[int | None]] = {}
+    names = [*LATENCIES, "landing"]
     for kind in MODELS.kinds():
         each = [latency_frames(kind, np.random.default_rng((seed, draw))) for draw in range(draws or 3)]
-        most = [max((one[name] for one in each if one[name] is not None), default=None) for name in names]
-        rows.append((kind, *most))
-    shown = [["-" if x is None else f"over {BLOCK}" if x == BLOCK + 1 else x for x in row] for row in rows]
+        rows[kind] = [max((x for one in each if (x := one[name]) is not None), default=None) for name in names]
+    over = {None: "-", BLOCK + 1: f"over {BLOCK}"}
+    shown = [[kind, *(over.get(x, x) for x in row)] for kind, row in rows.items()]
     print_table(f"frames to the first sample, of a block of {BLOCK} | " + " | ".join(names), shown)
-    return all(x is None or x <= BLOCK for row in rows for x in row[1:])
+    return all(x is None or x <= BLOCK for row in rows.values() for x in row)
 
 
 class TableDraw:
@@ -281,7 +292,7 @@ class TableDraw:
         given, ways = [*sources], np.linalg.norm(np.subtract([self.near, self.far], at), axis=1)
         if kind == "exponential_plate":
             k = self.plates["table"].wavenumber_rad_m(np.array([one.frequency_tactile_hz for one in given]))
-            return np.exp(-np.outer(ways, k))
+            return np.asarray(np.exp(-np.outer(ways, k)))
         is_strike = given[0].source_id != "phone"
         network = self.network
         if is_strike:
@@ -290,13 +301,13 @@ class TableDraw:
             network = replace(network, contacts=[*network.contacts, *more], middles_m=middles)
             # A light source brings so little into a plate that `auto` would leave its edges out.
             kind = "modal_plate" if kind == "auto" else kind
-        model = MODELS.build({"kind": kind, "outside_domain": "ignore"} if "_propagation" not in kind else kind)
+        model: Any = MODELS.build({"kind": kind, "outside_domain": "ignore"} if "_propagation" not in kind else kind)
         field = model.prepare(network, given, Bands.dominant(octaves=0.5 if "_propagation" not in kind else 0.0))
         near, far, itself = field.attenuation("table", np.array([self.near, self.far, at]))[:, :, 0]
         gains = np.stack([near, far])
         if is_strike:
             gains = gains / itself if itself.all() else np.ones_like(gains)
-        return np.minimum(gains, 1.0)  # a session's limit
+        return np.asarray(np.minimum(gains, 1.0))  # a session's limit
 
 
 def level_errors_db(kind: str, rng: np.random.Generator) -> tuple[list[float], list[float]]:

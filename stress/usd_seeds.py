@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from pathlib import Path
+from typing import Any
 
 from PIL import Image
 
@@ -25,7 +26,7 @@ def usd_files() -> dict[str, bytes]:
         return {suffix: Path(path).read_bytes() for suffix, path in paths.items()}
 
 
-def _fill(stage: object) -> None:
+def _fill(stage: Any) -> None:
     from pxr import Gf, Sdf, UsdGeom, UsdPhysics, UsdShade, Vt
 
     UsdGeom.SetStageMetersPerUnit(stage, 1.0)

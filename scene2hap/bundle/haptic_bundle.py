@@ -17,12 +17,21 @@ from scene2hap.bundle.corrections import read_corrections
 from scene2hap.bundle.edited_loops import to_be_made_again
 from scene2hap.bundle.folder import read_bundle, write_bundle
 from scene2hap.bundle.notebook import bundle_table
-from scene2hap.bundle.override import ANY_STATE, BY_STATE, MAKES_LOOPS, NONE, USER, Override, answers_before
+from scene2hap.bundle.override import (
+    ANY_STATE,
+    BY_STATE,
+    MAKES_LOOPS,
+    NONE,
+    USER,
+    Override,
+    answers_before,
+    warn_if_percent,
+)
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
 from scene2hap.common.counted import counted
-from scene2hap.common.warning import warn_if_percent, warn_of
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import AudioError, BundleError, CallError, MaterialError, SceneError
 from scene2hap.haptics import is_unknown
 from scene2hap.materials import Material

@@ -13,6 +13,7 @@ from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.clips.reading import as_vibration, read_any_clip
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
+from scene2hap.common.warning import warn_of
 from scene2hap.errors import BundleError, CallError
 from scene2hap.haptics import LONGEST_PASSAGE_S, ObjectHaptics, SourceState, checked_mass_kg
 from scene2hap.materials import Material, lookup
@@ -32,6 +33,8 @@ _OF_STATES = ("intensity", "start_up_s", "wind_down_s")
 
 _LEAST_GAIN_DB, _MOST_GAIN_DB = -120.0, 60.0
 """Bounds of a level [dB]; the lower one is that of 20 bits (assumed: whoever wants less wants silence)."""
+_USUAL_DB = 40.0
+"""Usual bound of a gain [dB]: a factor of 100, more than from the weakest to the strongest felt vibration."""
 _THICKEST_M = 10.0
 """Largest thickness [m] (assumed: more than any wall, and less than most numbers that are meant in millimetres)."""
 _LONGEST_NAME = 200
@@ -233,3 +236,12 @@ def answers_before(
         if haptics is not None and wish != NONE and not is_corrected:
             answers[key] = haptics
     return answers
+
+
+def warn_if_percent(gain_db: float) -> None:
+    """Warn of a level above `_USUAL_DB` [dB], which is probably a percentage. Warns: SceneWarning."""
+    if gain_db > _USUAL_DB:
+        warn_of(
+            f"gain_db is {gain_db:g} dB, a factor of {10 ** (gain_db / 20):.3g}, more than {_USUAL_DB:g} dB; it is in "
+            "decibels, not in percent: 0 leaves the level, 6 doubles it, -6 halves it."
+        )

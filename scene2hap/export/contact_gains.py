@@ -13,8 +13,7 @@ from scene2hap.haptics import Bands
 from scene2hap.propagation.exponential_plate import ExponentialPlate
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, PropagationModel
-from scene2hap.session.mix.sources import LoopRow
-from scene2hap.session.network import BoxCentres, PlatePoses, body_of, excitations_of
+from scene2hap.session.present_scene.network import BoxCentres, PlatePoses, body_of, excitations_of
 
 LEAST_GAIN = 1e-3
 """Least gain that is exported [-]: 60 dB below the source nothing is felt."""
@@ -41,9 +40,7 @@ def contact_paths(bundle: HapticBundle, model: PropagationModel | None = None) -
     """
     model = model or ExponentialPlate()
     scene = bundle.snapshot
-    rows = [
-        LoopRow(key, state, loop) for key, states in bundle.loops.items() for state, loop in list(states.items())[:1]
-    ]
+    loops = [(key, next(iter(states.values()))) for key, states in bundle.loops.items() if states]
     objects = {item.id: item for item in scene.objects}
     bodies = {key: body_of(bundle.objects.get(key), item.surface) for key, item in objects.items()}
     known = {key: body for key, body in bodies.items() if body is not None}
@@ -51,7 +48,7 @@ def contact_paths(bundle: HapticBundle, model: PropagationModel | None = None) -
     contacts = ContactGraph(scene).contacts
     corners = PlatePoses(objects, known, poses)
     network = ContactNetwork(known, contacts, corners, scene.up_axis, BoxCentres(objects, poses))
-    excitations = excitations_of(rows, known, bundle.objects)
+    excitations = excitations_of(loops, known, bundle.objects)
     if not excitations:
         return ()
     field = model.prepare(network, excitations, Bands.dominant())

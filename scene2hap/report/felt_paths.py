@@ -22,7 +22,7 @@ from scene2hap.propagation.paths.traced_paths import TracedPaths
 from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation
 from scene2hap.report.surface_points import Patch
 from scene2hap.scene.objects import Contact
-from scene2hap.session.network import body_of
+from scene2hap.session.present_scene.network import body_of
 
 Path = tuple[str, ...]
 

@@ -21,7 +21,7 @@ from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose, how_to_write
 from scene2hap.session.frame import Touch, given_touches
 from scene2hap.session.impacts.felt_impacts import KNOCK_M_S, Strike
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.scene_state import SceneState
 from scene2hap.session.unknown_names import require_hand
 
 MAX_POINTS = 1024

@@ -15,9 +15,9 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
 from scene2hap.common.files import Stamp, file_stamp
 from scene2hap.common.printable import quoted
+from scene2hap.common.worker_threads import start_worker
 from scene2hap.errors import BundleError, Scene2HapError
 from scene2hap.session import HapticSession
-from scene2hap.session.worker_threads import start_worker
 
 POLL_S = 0.05
 """Interval between checks of the folder [s]. A saved bundle is read at once. Files edited by hand are read after they

@@ -13,7 +13,7 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes, clear_call, clear_construction
 from scene2hap.common.counted import first_of
 from scene2hap.errors import SessionError, UnknownObject
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.scene_state import SceneState
 from scene2hap.session.unknown_names import require_hand, unknown_hand, unknown_source
 
 _MOST_SHOWN = 8
@@ -47,11 +47,11 @@ class Touch:
 GivenTouches = Touch | Iterable[Touch | tuple[str, str, Iterable[float]]]
 """All forms in which a session accepts touches; a tuple is (hand, object id, point)."""
 
-Felt = dict[str, list[Touch]]
-"""Touches by hand, in the order of the hands; hands without touches are left out."""
+TouchesByHand = dict[str, list[Touch]]
+"""In the order of the hands; hands without touches are left out."""
 
 
-def touches_by_hand(touches: Any, hands: Sequence[str], state: SceneState) -> Felt:
+def touches_by_hand(touches: Any, hands: Sequence[str], state: SceneState) -> TouchesByHand:
     """Group touches, in any form that `given_touches` accepts, by their hand.
 
     Raises: UnknownObject: an object is not in the scene; SessionError: an unknown hand, or another type.

@@ -12,8 +12,8 @@ for a model, and `render` never waits for `update`. A frame, in `update`:
 6. The sink gets the frame, which resets its watchdog. Likely mistakes are named.
 
 Each part owns its state: `SceneState` the objects, their poses and contacts; `Sources` states, switches and levels;
-`Switching` starts and stops that are under way; `HandFrames` the field, the touches and the gains; `Playback` the
-loops, the clock and the pause; `Impacts` motions and bursts; `Output` the sink and its safety layer.
+`Switching` starts and stops that are under way; `HandFrames` the field, the touches and the gains; `LoopMixers` the
+loops; `Playback` the clock, the pause and the bursts; `Impacts` motions; `Output` the sink and its safety layer.
 """
 
 from __future__ import annotations
@@ -35,6 +35,7 @@ from scene2hap.bundle.contents import require_same_scene
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls, read_only
 from scene2hap.common.counted import counted
+from scene2hap.common.deadline import Deadline
 from scene2hap.contact.graph import ContactChange
 from scene2hap.devices.protocol import ActuatorSink, Block
 from scene2hap.devices.whole_frames import WholeFrames
@@ -58,26 +59,33 @@ from scene2hap.session.arguments import (
     require_prefab,
 )
 from scene2hap.session.config import SessionConfig, require_settings
-from scene2hap.session.deadline import Deadline
-from scene2hap.session.explanation import Explanation, FeltSource
-from scene2hap.session.frame import Felt, GivenTouches, HapticFrame, Touch, given_touches, touches_by_hand
-from scene2hap.session.hand_frames import HandFrames
+from scene2hap.session.explanation.explanations import Explanations
+from scene2hap.session.explanation.report import Explanation
+from scene2hap.session.frame import (
+    GivenTouches,
+    HapticFrame,
+    Touch,
+    given_touches,
+    touches_by_hand,
+)
+from scene2hap.session.gains.hand_frames import HandFrames
+from scene2hap.session.hand_changes import HandChanges
 from scene2hap.session.impacts.felt_impacts import Impact, Impacts
 from scene2hap.session.likely_mistakes import (
     LikelyMistakes,
     warn_if_not_baked,
     warn_if_other_actuator,
-    warn_if_other_hands,
     warn_of_pending_corrections,
 )
+from scene2hap.session.mix.loop_mixers import Clock, LoopMixers
 from scene2hap.session.mix.output import Output
 from scene2hap.session.mix.playback import Playback
 from scene2hap.session.mix.sources import Level, SourceInfo, SourceProgress, Sources
 from scene2hap.session.mix.starts_and_stops import Switching
 from scene2hap.session.object_changes import ObjectChanges
-from scene2hap.session.prepared_shapes import PreparedShapes
+from scene2hap.session.present_scene.prepared_shapes import PreparedShapes
+from scene2hap.session.present_scene.scene_state import SceneState
 from scene2hap.session.proximity import Proximity
-from scene2hap.session.scene_state import SceneState
 from scene2hap.session.stats import SessionStats
 from scene2hap.session.unknown_names import require_hand
 from scene2hap.session.user_profile import UserProfile
@@ -143,17 +151,18 @@ class HapticSession:
         in_background = self.config.prepare == "background"
         self._shapes = PreparedShapes(is_wanted=scene.contacts is None, in_background=in_background)
         self._shapes.order(item.geometry.mesh for item in scene.objects)
-        self._playback = Playback(self.config, self._sources.rows(), hands)
-        self._switching = Switching(self._sources, self._playback, self._state, self.config.sample_rate_hz)
-        self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, hands)
+        clock, rate_hz = Clock(), self.config.sample_rate_hz
+        self._mixers = LoopMixers(self.config, self._sources.rows(), hands, clock)
+        self._playback = Playback(rate_hz, self._mixers, clock)
+        self._switching = Switching(self._sources, self._mixers, clock, self._state, rate_hz)
+        self._hand_frames = HandFrames(self.config, self._state, self._sources, self._mixers.peaks, hands)
         self._mistakes = LikelyMistakes(self._state)
         # No reference to the session itself: only the garbage collector could free such a cycle.
         frames = self._hand_frames
         self._impacts = Impacts(self.config, self._state, self._playback, lambda: frames.field, self._sources.user)
         self._output = Output(sink, self.config)
-        self._user: UserProfile | None = None
         if user is not None:
-            self._use_profile(UserProfile.parse(user))
+            self._hand_changes.use_profile(UserProfile.parse(user))
 
     @property
     def config(self) -> SessionConfig:
@@ -218,9 +227,9 @@ class HapticSession:
         self._output.require_own_process()
         if moved is not None and type(moved) is not dict:
             moved, touches = given_frame(moved, touches)
-        felt = touches_by_hand(touches, self._hand_frames.hands, self._state)
+        by_hand = touches_by_hand(touches, self._hand_frames.hands, self._state)
         stamp = self._stamp(at_sample)
-        if self._playback.take_prepared():
+        if self._mixers.take_prepared():
             self._hand_frames.loops_changed()
         if moved:
             self._impacts.begin(moved, stamp)
@@ -228,12 +237,13 @@ class HapticSession:
             self._hand_frames.apply(self._move(moved or {}, contacts))
         if self._switching.advance(stamp):
             self._hand_frames.levels_changed()
-        frame, gained = self._hand_frames.frame(felt, moved or (), is_paused=self._playback.is_paused)
+        frame, gained = self._hand_frames.frame(by_hand, moved or (), is_paused=self._playback.is_paused)
         if gained is not None:
-            self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
-        self._impacts.follow(moved, felt, stamp)
+            self._mixers.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
+        self._impacts.follow(moved, by_hand, stamp)
         self._output.feed(frame)
-        self._warn_of_mistakes(felt)
+        problem, is_unplayed = self._output.untold_problem, self._output.is_unused and not self._playback.clock.position
+        self._mistakes.in_frame(by_hand, self._sources.ids, problem, is_unplayed=is_unplayed)
         return frame
 
     def touches_at(
@@ -264,7 +274,7 @@ class HapticSession:
             moved = given_poses(moved)
             require_moves(moved, self._state)
             poses = {**poses, **moved}
-        touched = self._hand_frames.felt
+        touched = self._hand_frames.touches
         return self._proximity.touches(points, self._state.objects, poses, within_m, depth_m, touched)
 
     def strike(
@@ -291,7 +301,7 @@ class HapticSession:
             self._state.require(with_object)
         strike = given_strike(object_id, point_m, with_object, speed_m_s, impulse_n_s)
         self._mistakes.in_strike(object_id, strike.point_m)
-        return self._impacts.strike(strike, self._hand_frames.felt, self._playback.now)
+        return self._impacts.strike(strike, self._hand_frames.touches, self._playback.clock.now)
 
     def add(
         self,
@@ -359,18 +369,11 @@ class HapticSession:
         Raises: ConfigError: the name is taken; SessionError: the sink is running and cannot change its channels;
         DeviceError: it cannot be opened again.
         """
-        hands = checks.names("hands", (*self.hands, name))
-        with self._output.reopened_for(hands, self._mixed):
-            self._playback.add_hand(name)
-            self._use_hands(hands)
+        self._hand_changes.add(name, self._mixed)
 
     def remove_hand(self, name: str) -> None:
         """Remove an output, but not the last; see `add_hand`. Raises: SessionError: an unknown hand."""
-        require_hand(name, self.hands)
-        hands = checks.names("hands", [hand for hand in self.hands if hand != name])
-        with self._output.reopened_for(hands, self._mixed):
-            self._playback.remove_hand(name)
-            self._use_hands(hands)
+        self._hand_changes.remove(name, self._mixed)
 
     def set_source(
         self,
@@ -406,7 +409,7 @@ class HapticSession:
         other = None if profile is None else UserProfile.parse(profile)
         self._sources.user.set(gain_db, mute)
         if other is not None:
-            self._use_profile(other)
+            self._hand_changes.use_profile(other)
         self._hand_frames.levels_changed()
 
     def pause(self) -> None:
@@ -431,21 +434,7 @@ class HapticSession:
         Raises: SessionError: an unknown hand.
         """
         require_hand(hand, self.hands)
-        explained = self._hand_frames.explain(hand, is_paused=self._playback.is_paused)
-        felt = sorted(
-            map(self._with_running, explained.felt), key=lambda one: -(one.gain_db + one.level_db + one.running_db)
-        )
-        of_sink = self._output.why_silent
-        reasons = explained.reasons if of_sink is None else (of_sink, *explained.reasons)
-        return replace(explained, felt=tuple(felt), impacts=self._impacts.felt_by(hand), reasons=reasons)
-
-    def _with_running(self, felt: FeltSource) -> FeltSource:
-        """Add the amplitude of a start or stop that is under way."""
-        source = self._sources[felt.source_id]
-        if source.transition_row is None:
-            return felt
-        amplitude = self._switching.running(felt.source_id).amplitude
-        return felt.during_transition(amplitude, is_start=source.is_running)
+        return self._explanations.of(hand)
 
     @property
     def is_current(self) -> bool:
@@ -469,7 +458,7 @@ class HapticSession:
         given = given_touches(touches)
         touches_by_hand(given, self.hands, self._state)
         self._mistakes.in_points(given)
-        if self._switching.follow_contacts(self._playback.now):
+        if self._switching.follow_contacts(self._playback.clock.now):
             self._hand_frames.levels_changed()
         return self._hand_frames.would_feel(given)
 
@@ -533,7 +522,7 @@ class HapticSession:
         if timeout_s is not None:
             timeout_s = checks.number("timeout_s", timeout_s, "s", at_least=0.0, at_most=86_400.0, error=SessionError)
         end = Deadline(timeout_s)
-        parts = (self._playback, self._impacts, self._hand_frames, self._shapes)
+        parts = (self._mixers, self._impacts, self._hand_frames, self._shapes)
         return all(part.wait(end) for part in parts)
 
     def render(self, n_frames: int) -> Block:
@@ -562,7 +551,7 @@ class HapticSession:
     @property
     def position(self) -> int:
         """Number of the next sample of `render`, on the clock of `at_sample`; it does not advance in a pause."""
-        return self._playback.position
+        return self._playback.clock.position
 
     def position_s(self, source_id: str) -> float:
         """Return the position of a source in its loop [s], for a game that plays the audible loop.
@@ -623,7 +612,7 @@ class HapticSession:
     @property
     def stats(self) -> SessionStats:
         """Counters since the session was made, such as updates, impacts and skipped work."""
-        stats = self._hand_frames.stats(self._playback.rows_not_mixed)
+        stats = self._hand_frames.stats(self._mixers.rows_not_mixed)
         self._impacts.take_late()
         return replace(
             stats,
@@ -640,8 +629,18 @@ class HapticSession:
 
     @cached_property
     def _object_changes(self) -> ObjectChanges:
-        parts = (self._state, self._shapes, self._sources, self._switching, self._hand_frames, self._playback)
-        return ObjectChanges(*parts)
+        parts = (self._state, self._shapes, self._sources, self._switching, self._hand_frames, self._mixers)
+        return ObjectChanges(*parts, self._playback.clock)
+
+    @cached_property
+    def _hand_changes(self) -> HandChanges:
+        parts = (self._hand_frames, self._impacts, self._mixers, self._playback, self._output)
+        return HandChanges(self.config.actuator.name, *parts)
+
+    @cached_property
+    def _explanations(self) -> Explanations:
+        parts = (self._state, self._sources, self._switching, self._hand_frames, self._playback)
+        return Explanations(self.config.propagation, *parts, self._impacts, self._output)
 
     @cached_property
     def _proximity(self) -> Proximity:
@@ -653,35 +652,12 @@ class HapticSession:
 
     def _stamp(self, at_sample: int | None) -> int:
         """Return the position on `render`'s clock from which an update counts, and store it."""
-        playback = self._playback
-        stamp = playback.now
+        clock = self._playback.clock
+        stamp = clock.now
         if at_sample is not None:
-            stamp = given_stamp(at_sample, playback.updated_at, playback.position, self.config.sample_rate_hz)
-        playback.updated_at = stamp
+            stamp = given_stamp(at_sample, clock.updated_at, clock.position, self.config.sample_rate_hz)
+        clock.updated_at = stamp
         return stamp
-
-    def _warn_of_mistakes(self, felt: Felt) -> None:
-        if (problem := self._output.untold_problem) is not None:
-            self._mistakes.in_sink(problem)
-        if felt:
-            self._mistakes.in_sources(self._sources.ids)
-            self._mistakes.in_touches(felt)
-            if self._output.is_unused and not self._playback.position:
-                self._mistakes.in_output()
-
-    def _use_profile(self, user: UserProfile) -> None:
-        self._user = user
-        self._hand_frames.use_profile(user)
-        self._impacts.use_profile(user)
-        limits = user.limits(self.hands, self.config.actuator.name)
-        self._playback.hold(limits)
-        self._output.hold(limits)
-        warn_if_other_hands(tuple(user.hands), self.hands)
-
-    def _use_hands(self, hands: tuple[str, ...]) -> None:
-        self._hand_frames.use_hands(hands)
-        if self._user is not None:
-            self._use_profile(self._user)
 
     def _move(self, moved: Mapping[str, Pose], contacts: Sequence[Contact] | None) -> ContactChange:
         self._mistakes.in_moves(moved)

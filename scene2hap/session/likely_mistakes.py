@@ -34,10 +34,10 @@ from scene2hap.scene.objects import Contact
 from scene2hap.scene.plausibility.contact_normals import are_reversed
 from scene2hap.scene.pose import Pose, in_own
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.session.frame import Felt, Touch
+from scene2hap.session.frame import Touch, TouchesByHand
 from scene2hap.session.mix.output import NOT_STARTED
-from scene2hap.session.network import body_of
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.network import body_of
+from scene2hap.session.present_scene.scene_state import SceneState
 
 FAR_M = 0.05
 """A finger tip is 2 cm thick, and the tracking error of a hand is as large; assumed."""
@@ -119,12 +119,28 @@ class LikelyMistakes:
                 f"{one.b!r}; a normal points from a to b. Swap a and b, or no object lands."
             )
 
-    def in_touches(self, felt: Felt) -> None:
+    def in_frame(
+        self, touches: TouchesByHand, source_ids: Sequence[str], sink_problem: str | None, *, is_unplayed: bool
+    ) -> None:
+        """Warn of mistakes that an update shows; call it once for each.
+
+        Parameters: sink_problem : why the sink plays nothing, None if it plays; is_unplayed : the session's sink was
+        never started, and nothing was rendered. Warns: SceneWarning.
+        """
+        if sink_problem is not None:
+            self.in_sink(sink_problem)
+        if touches:
+            self.in_sources(source_ids)
+            self.in_touches(touches)
+            if is_unplayed:
+                self.in_output()
+
+    def in_touches(self, touches_by_hand: TouchesByHand) -> None:
         """Count touches that are too far off, and warn about the first one of each hand. Warns: SceneWarning."""
         self._n_updates = n = self._n_updates + 1
         if n > LOOKED_AT and n % LOOKED_AT:
             return
-        for touches in felt.values():
+        for touches in touches_by_hand.values():
             for touch in touches:
                 off_m = self._off_m(touch.object_id, touch.point_m)
                 if off_m > FAR_M:

@@ -10,12 +10,12 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.differences import changed_objects
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.objects import SceneObject
-from scene2hap.session.hand_frames import HandFrames
-from scene2hap.session.mix.playback import Playback
+from scene2hap.session.gains.hand_frames import HandFrames
+from scene2hap.session.mix.loop_mixers import Clock, LoopMixers
 from scene2hap.session.mix.sources import Level, LoopRow, Sources
 from scene2hap.session.mix.starts_and_stops import Switching
-from scene2hap.session.prepared_shapes import PreparedShapes
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.prepared_shapes import PreparedShapes
+from scene2hap.session.present_scene.scene_state import SceneState
 
 
 class ObjectChanges:
@@ -28,10 +28,11 @@ class ObjectChanges:
         sources: Sources,
         switching: Switching,
         hand_frames: HandFrames,
-        playback: Playback,
+        mixers: LoopMixers,
+        clock: Clock,
     ) -> None:
         self._state, self._shapes, self._sources = state, shapes, sources
-        self._switching, self._hand_frames, self._playback = switching, hand_frames, playback
+        self._switching, self._hand_frames, self._mixers, self._clock = switching, hand_frames, mixers, clock
 
     def add(
         self, item: SceneObject, haptics: ObjectHaptics | None, loops: Mapping[str, HapticLoop], level: Level
@@ -103,4 +104,4 @@ class ObjectChanges:
 
     def _play_sources(self, instead: tuple[LoopRow, LoopRow] | None = None) -> None:
         """Play the loops of all sources; `instead` is a new row, and the one that it replaces."""
-        self._playback.change_rows(self._sources.rows(), self._playback.now, instead)
+        self._mixers.change_rows(self._sources.rows(), self._clock.now, instead)

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from scene2hap.common.calls import clear_attributes
 
 
 @clear_attributes
-@dataclass(frozen=True)
+@dataclass
 class SkipCounts:
-    """How often a session skipped each kind of work; see `SkipConfig`.
+    """How often a session skipped each kind of work; see `SkipConfig`. `HapticSession.stats` returns a copy.
 
     Parameters: unreachable_objects : objects left out of the model's input, or without a path from a live field's
     sources, summed over preparations and changes; unreachable_touches : touches that no source reaches;
@@ -53,7 +53,7 @@ class SessionStats:
     field_latency_s: float = 0.0
     fields_failed: int = 0
     last_failure: str = ""
-    skipped: SkipCounts = SkipCounts()
+    skipped: SkipCounts = field(default_factory=SkipCounts)
     touches_off_surface: int = 0
     impacts: int = 0
     impacts_felt: int = 0
@@ -62,20 +62,8 @@ class SessionStats:
 
 @dataclass
 class Counts:
-    """Counts for `SkipCounts`, the number of capped gains, and whether a warning was given."""
+    """The counts of a session that its parts raise: skipped work and capped gains; and whether a warning was given."""
 
-    unreachable_objects: int = 0
-    unreachable_touches: int = 0
-    changes_out_of_reach: int = 0
-    below_threshold: int = 0
-    silent_bands: int = 0
-    idle_hands: int = 0
-    unchanged_frames: int = 0
+    skipped: SkipCounts = field(default_factory=SkipCounts)
     gains_capped: int = 0
     has_warned_of_gains: bool = False
-
-    def skipped(self, rows_not_mixed: int) -> SkipCounts:
-        """Copy the present counts into a `SkipCounts`."""
-        not_skips = ("gains_capped", "has_warned_of_gains")
-        counted = {name: count for name, count in vars(self).items() if name not in not_skips}
-        return SkipCounts(rows_not_mixed=rows_not_mixed, **counted)

@@ -24,7 +24,7 @@ from scene2hap.common.printable import quoted
 from scene2hap.common.settings import Settings
 from scene2hap.errors import ConfigError, unwritable
 from scene2hap.haptics import Bands
-from scene2hap.session.hand_gains import HandGains
+from scene2hap.session.gains.hand_gains import HandGains
 from scene2hap.session.mix.sources import LoopRow
 
 MOST_DB = 40.0

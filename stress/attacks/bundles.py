@@ -13,7 +13,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from attacks.attack import Attack
+from stress.attacks.attack import Attack
 
 _DOCUMENTS = ("bundle.json", "scene.json", "objects.json", "loops.json", "overrides.json")
 _HUGE = 10**400
@@ -46,7 +46,7 @@ def attacks(seed: int, work: Path) -> Iterator[Attack]:
             argv = ("scene2hap", "bake", str(scene), "-o", str(folder))
         more = ("--json",) if rng.random() < 0.3 else ()
         if command == "render":
-            from attacks.touch_files import judged
+            from stress.attacks.touch_files import judged
 
             name = f"{number} {command}: {', '.join(done)}"
             call = partial(judged, (*argv[1:], *more))

@@ -11,8 +11,8 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from attacks import bundles
-from attacks.attack import Attack
+from stress.attacks import bundles
+from stress.attacks.attack import Attack
 
 _NUMBERS = ("nan", "inf", "-inf", "-1", "0", "1e400", "1e-400", "9" * 5000, "", "x", "²", "1_000", "0x10", "٣")
 # None of these paths is outside of the case's folder and writable for the user who runs the campaign.

@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
-from attacks.attack import Attack
+from stress.attacks.attack import Attack
 
 KEY = "sk-attack-0123456789/abcdef+ghij=="
 Spelling = Callable[[str], str]

@@ -17,10 +17,10 @@ from typing import Any
 
 import numpy as np
 
-from attacks import bundles
-from attacks.attack import Attack
-from attacks.judging import is_harmless, printed
-from attacks.values import SCALARS, arrays
+from stress.attacks import bundles
+from stress.attacks.attack import Attack
+from stress.attacks.judging import is_harmless, printed
+from stress.attacks.values import SCALARS, arrays
 
 Entry = Callable[[Any, Path], object]
 
@@ -384,6 +384,10 @@ def _pull(frames: Any, room: Path) -> Any:
         return sink.pull(frames)
 
 
+def _of_array(entry: Callable[[Any, Path], object], value: str, rows: int, columns: int, room: Path) -> object:
+    return entry(arrays(rows, columns)[value], room)
+
+
 def every() -> Iterator[tuple[str, Callable[[Path], object]]]:
     """Yield a name and a function of the bundle's folder for every entry with every value."""
     for (name, entry), value in itertools.product(NUMBERS.items(), SCALARS):
@@ -392,7 +396,7 @@ def every() -> Iterator[tuple[str, Callable[[Path], object]]]:
         for value in arrays(rows, columns):
             yield (
                 f"{name} of array: {value}",
-                lambda room, e=entry, v=value, r=rows, c=columns: e(arrays(r, c)[v], room),
+                partial(_of_array, entry, value, rows, columns),
             )
 
 

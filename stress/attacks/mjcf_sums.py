@@ -7,7 +7,7 @@ import random
 import struct
 from collections.abc import Callable
 
-from attacks.scene_files import Files, _png
+from stress.attacks.scene_files import Files, _png
 
 Case = Callable[[random.Random], Files]
 

@@ -11,7 +11,7 @@ import struct
 from collections.abc import Iterator
 from pathlib import Path
 
-from attacks.attack import Attack
+from stress.attacks.attack import Attack
 
 _PARTS = (
     "\x1b]0;owned\x07", "\x1b[2J", "\x9b31m", "\x00", "\r", "\n", "\t", "\u202e", "\u2028", "\ud800", "\udcff",

@@ -11,7 +11,7 @@ import struct
 from collections.abc import Callable
 from typing import Any
 
-from attacks.scene_files import Files, _floats, _gltf, _png, _vec3
+from stress.attacks.scene_files import Files, _floats, _gltf, _png, _vec3
 
 Case = Callable[[random.Random], Files]
 

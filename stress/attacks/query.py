@@ -14,9 +14,9 @@ from pathlib import Path
 from scene2hap.common.printable import printable
 from scene2hap.errors import Scene2HapError
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from attacks.keys import KEY, NOT_COVERED, SPELLINGS, is_shown
+from stress.attacks.keys import KEY, NOT_COVERED, SPELLINGS, is_shown
 
 _WITHOUT_KEY = ("page", "sound")
 
@@ -37,7 +37,9 @@ def main(kind: str, where: str) -> None:
 
         schema = {"type": "object", "properties": {"scene_category": {"type": "string"}}, "additionalProperties": False}
         request = LLMRequest("scene_analyzer", "", "What kind of place is this?", {}, schema, "1")
-        backend = LocalBackend("m", base_url=where, dialect=kind, timeout_s=2.0, api_key=KEY)
+        backend = LocalBackend(
+            "m", base_url=where, dialect="ollama" if kind == "ollama" else "openai", timeout_s=2.0, api_key=KEY
+        )
         print(printable(asyncio.run(backend.complete(request)).text[:1000]))
 
 

@@ -12,9 +12,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from fuzz_scenes import MUTATIONS, seeds
-
-from attacks.attack import Attack
+from stress.attacks.attack import Attack
+from stress.fuzz_scenes import MUTATIONS, seeds
 
 _MB = 1 << 20
 Files = dict[str, bytes]

@@ -10,8 +10,8 @@ import random
 from collections.abc import Iterator
 from pathlib import Path
 
-from attacks import mjcf_sums, node_sums, text_sums
-from attacks.attack import Attack
+from stress.attacks import mjcf_sums, node_sums, text_sums
+from stress.attacks.attack import Attack
 
 BAKE_SECONDS = 15.0
 """Limit of processor time of a bake, which also infers each object and makes sounds."""

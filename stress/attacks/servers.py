@@ -20,9 +20,9 @@ from pathlib import Path
 import numpy as np
 import soundfile
 
-from attacks import keys
-from attacks.attack import Attack
-from attacks.query import KEY
+from stress.attacks import keys
+from stress.attacks.attack import Attack
+from stress.attacks.keys import KEY
 
 _QUERY = str(Path(__file__).with_name("query.py"))
 _SECONDS = 8.0

@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 import soundfile
 
-from attacks import bundles
-from attacks.attack import Attack, in_turn
-from attacks.judging import printed, wav_is_harmless
+from stress.attacks import bundles
+from stress.attacks.attack import Attack, in_turn
+from stress.attacks.judging import printed, wav_is_harmless
 
 
 def attacks(seed: int, work: Path) -> Iterator[Attack]:

@@ -7,7 +7,7 @@ import struct
 import zlib
 from collections.abc import Callable
 
-from attacks.scene_files import Files, _dae, _png
+from stress.attacks.scene_files import Files, _dae, _png
 
 Case = Callable[[random.Random], Files]
 

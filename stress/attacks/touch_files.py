@@ -12,9 +12,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from attacks import bundles
-from attacks.attack import Attack, in_turn
-from attacks.judging import wav_is_harmless
+from stress.attacks import bundles
+from stress.attacks.attack import Attack, in_turn
+from stress.attacks.judging import wav_is_harmless
 
 _ODD: tuple[Any, ...] = (
     1e9, 1e308, 1e12, 3e6, 86_400.0, 1e-308, 5e-324, 0, -0.0, -1, float("nan"), float("inf"), -float("inf"), True, None, "1e9", "",
@@ -136,7 +136,7 @@ def _source(folder: Path, rng: random.Random) -> Made:
 def _many(folder: Path, rng: random.Random) -> Made:
     """As many steps as fit into some megabytes."""
     n = rng.choice([20_000, 200_000, 1_000_000])
-    steps: list[dict[str, Any]] = rng.choice(
+    steps: list[Any] = rng.choice(
         [[{"time_s": 0.01, "hand": "left", "touch": "fan"}], [{"time_s": 0.01, "move": "fan", "by_m": [0.001, 0, 0], "glide_s": 9.0}],
          [{"time_s": 0.0, "hand": f"h{i}", "touch": "fan"} for i in range(3000)], [{}], [0], [{"time_s": 0.01, "source": "fan", "on": True}]]
     )  # fmt: skip
@@ -149,7 +149,7 @@ def _many(folder: Path, rng: random.Random) -> Made:
 
 
 def _hands(folder: Path, rng: random.Random) -> Made:
-    hands = rng.choice(
+    hands: list[Any] = rng.choice(
         [
             ["\ud800"],
             [""],

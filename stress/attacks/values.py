@@ -41,7 +41,7 @@ SCALARS: dict[str, Any] = {
     "str_": np.str_("1"), "0-d": np.array(0.5), "0-d nan": np.array(np.nan), "0-d object": np.array(None),
     "void": np.void(b"abc"), "decimal": Decimal("1"), "Decimal sNaN": Decimal("sNaN"), "Decimal huge": Decimal("1e9999"),
     "fraction": Fraction(1, 3), "Fraction huge": Fraction(10**400, 1), "raising": Raising(), "sub": Sub(1.0),
-    "lambda": lambda: 1, "generator": (x for x in ()), "set": {1}, "slice": slice(None),
+    "lambda": lambda: 1, "generator": (x for x in list[float]()), "set": {1}, "slice": slice(None),
     "Ellipsis": ..., "NotImplemented": NotImplemented, "exception": ValueError("x"),
 }  # fmt: skip
 
@@ -58,10 +58,10 @@ def arrays(rows: int, columns: int) -> dict[str, Any]:
         "float16": whole.astype(np.float16), "longdouble": whole.astype(np.longdouble), "int8": whole.astype(np.int8),
         "bool": whole > 0.5, "complex": whole + 1j, "object": whole.astype(object), "text": whole.astype(str),
         "bytes": whole.astype("S9"), "object of None": np.full(whole.shape, None), "object of lists": np.array([[[]]] * 1, object),
-        "masked": np.ma.masked_array(whole, whole > 0.5), "all masked": np.ma.masked_all(whole.shape), "matrix": np.matrix(whole),
+        "masked": np.ma.masked_array(whole, whole > 0.5), "all masked": np.ma.masked_array(whole, np.ones(whole.shape, bool)), "matrix": np.matrix(whole),
         "structured": structured, "datetime": whole.astype("M8[s]"), "nan": whole * np.nan, "inf": whole + np.inf,
         "1e308": whole + 1e308, "-1e308": whole - 1e308, "tiny": whole * 1e-320, "empty": whole[:0], "no columns": whole[:, :0],
         "ragged": [[0.0, 1.0, 2.0], [0.0]], "deep": np.zeros((1,) * 30), "flat": whole.ravel(), "transposed": whole.T,
-        "list": whole.tolist(), "strings": [["a", "b", "c"]] * rows, "memoryview": memoryview(whole), "raising": Raising(),
+        "list": whole.tolist(), "strings": [["a", "b", "c"]] * rows, "memoryview": whole.data, "raising": Raising(),
         "huge ints": [[10**400] * columns] * rows, "generator": (row for row in whole), "wide": np.zeros((rows, columns + 1)),
     }  # fmt: skip

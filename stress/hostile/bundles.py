@@ -6,14 +6,13 @@ import json
 import shutil
 from pathlib import Path
 
-from hostile.reader import add, writes
+from stress.hostile.reader import add, writes
 
 
 def _bundle(folder: Path) -> Path:
-    from attacks.bundles import sound
-
     from scene2hap import HapticBundle
     from scene2hap.bundle.account import write_account
+    from stress.attacks.bundles import sound
 
     sound(folder)
     bundle = HapticBundle.load(folder / "sound" / "room")

@@ -300,35 +300,37 @@ def change_glb_numbers(data: bytes, rng: random.Random) -> bytes:
 
 def change_riff(data: bytes, rng: random.Random) -> bytes:
     """Change a field of the format of a RIFF file, its samples, or the order of its chunks; lengths stay correct."""
-    chunks, at = [], 12
+    chunks: list[tuple[bytes, bytearray]] = []
+    at = 12
     while at + 8 <= len(data):
         name, size = data[at : at + 4], struct.unpack_from("<I", data, at + 4)[0]
-        chunks.append([name, bytearray(data[at + 8 : at + 8 + size])])
+        chunks.append((name, bytearray(data[at + 8 : at + 8 + size])))
         at += 8 + size + size % 2
     kind = rng.choice(["format", "samples", "remove", "double", "exchange", "name", "empty"])
-    one = rng.choice(chunks)
+    k = rng.randrange(len(chunks))
+    name, body = chunks[k]
     if kind == "format":
-        body = next(body for name, body in chunks if name == b"fmt ")
+        body = dict(reversed(chunks))[b"fmt "]
         offset, code = rng.choice([(0, "<H"), (2, "<H"), (4, "<I"), (8, "<I"), (12, "<H"), (14, "<H")])
         number = rng.choice([0, 1, 2, 3, 7, 16, 24, 32, 64, 255, 65535, 0xFFFE, 48000])
         struct.pack_into(code, body, offset, number if code == "<H" else rng.choice([number, 2**31, 2**32 - 1, 10**9]))
     elif kind == "samples":
-        body = next(body for name, body in chunks if name == b"data")
+        body = dict(reversed(chunks))[b"data"]
         for _ in range(rng.choice([1, 100, 10_000])):
             offset = rng.randrange(len(body) - 4) & ~3
             struct.pack_into("<f", body, offset, rng.choice([float("nan"), float("inf"), 3e38, -3e38, 1e-45, 1e9]))
     elif kind == "remove":
-        chunks.remove(one)
+        del chunks[k]
     elif kind == "double":
-        chunks.insert(rng.randrange(len(chunks)), one)
+        chunks.insert(rng.randrange(len(chunks)), chunks[k])
     elif kind == "exchange":
         rng.shuffle(chunks)
     elif kind == "name":
-        one[0] = rng.choice([b"data", b"fmt ", b"LIST", b"fact", b"junk", b"\0\0\0\0"])
+        chunks[k] = rng.choice([b"data", b"fmt ", b"LIST", b"fact", b"junk", b"\0\0\0\0"]), body
     else:
-        one[1] = bytearray()
-    body = b"".join(name + struct.pack("<I", len(held)) + held + b"\0" * (len(held) % 2) for name, held in chunks)
-    return data[:4] + struct.pack("<I", len(body) + 4) + data[8:12] + body
+        chunks[k] = name, bytearray()
+    content = b"".join(name + struct.pack("<I", len(held)) + held + b"\0" * (len(held) % 2) for name, held in chunks)
+    return data[:4] + struct.pack("<I", len(content) + 4) + data[8:12] + content
 
 
 Damage = Callable[[bytes, random.Random], bytes]

@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 
-from hostile.reader import add
+from stress.hostile.reader import add
 
 
 def _requests(folder: Path) -> Path:
@@ -63,7 +64,7 @@ def _taken(folder: Path) -> object:
 
     picture, frame = ((folder / name).read_bytes() for name in ("picture.bin", "frame.bin"))
     kind_of(picture)
-    SentPictures(folder).take(picture)
+    SentPictures(lambda: folder).take(picture)
     played = PlayedSession(
         HapticSession(*table_with_two_phones(), {"prepare": "blocking"}), ["phone"], None, lambda document: None
     )
@@ -122,18 +123,14 @@ def _heard(folder: Path) -> object:
 
     line: Any = SerialLine("port", 921600, None, 0.05, 32)
     line._port = Port()
-    line._greet, greet = (lambda *_: greet(line._port, 2, lambda: bool(line._port.pieces))), line._greet
-    from scene2hap.devices import serial_amp
-
-    serial_amp.SerialPort, real = (lambda *_: line._port), serial_amp.SerialPort  # type: ignore[misc,assignment]
-    try:
+    greet = line._greet
+    line._greet = lambda *_: greet(line._port, 2, lambda: bool(line._port.pieces))
+    with patch("scene2hap.devices.serial_amp.SerialPort", lambda *_: line._port):
         line.connect(SinkFormat(48000, ("left", "right")), lambda: bool(line._port.pieces))
         while line._port.pieces:
             n = line.wanted(0.0)
             if n:
                 line.send(np.zeros((n, 2), np.float32))
-    finally:
-        serial_amp.SerialPort = real  # type: ignore[misc]
     return found, line.latency_s, line.underruns
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-from hostile.reader import KEY, add
+from stress.hostile.reader import KEY, add
 
 
 def _answers(folder: Path) -> Path:
@@ -57,6 +57,10 @@ def _completion(folder: Path) -> Path:
     return folder
 
 
+def _run(asked: Callable[..., Coroutine[Any, Any, object]], *arguments: object) -> object:
+    return asyncio.run(asked(*arguments))
+
+
 def _served(folder: Path) -> object:
     """Give the replies of a server to the parts that read them, each with status 200 and an error."""
     from scene2hap.common.web import WebReply
@@ -88,11 +92,11 @@ def _served(folder: Path) -> object:
             uses: tuple[Callable[[], object], ...] = (
                 partial(chat.read_chat, server.reply, "m"),
                 partial(OllamaChat(Decoding(100, 0, 100)).read, server.reply, "m"),
-                lambda server=server: asyncio.run(server_models.openai_models(server)),
-                lambda server=server: asyncio.run(server_models.ollama_models(server)),
-                lambda service=service: asyncio.run(service.status("b1")),
-                lambda service=service: asyncio.run(service.begun_with("f")),
-                lambda service=service: asyncio.run(service.upload("x", b"")),
+                partial(_run, server_models.openai_models, server),
+                partial(_run, server_models.ollama_models, server),
+                partial(_run, service.status, "b1"),
+                partial(_run, service.begun_with, "f"),
+                partial(_run, service.upload, "x", b""),
             )
             for use in uses:
                 with contextlib.suppress(Scene2HapError):
@@ -168,8 +172,8 @@ def _batches(folder: Path) -> Path:
     backend.close()
     (row,) = batches.rows()
     lines = []
-    for key, name in zip(row.requests, ("scene_analyzer", "material_estimator"), strict=True):
-        body = said(GOOD[name]).body
+    for key, answer in zip(row.requests, (GOOD["scene_analyzer"], GOOD["material_estimator"]), strict=True):
+        body = said(answer).body
         lines.append(json.dumps({"custom_id": key, "response": {"status_code": 200, "body": body}, "error": None}))
     fault = json.dumps({"custom_id": row.requests[0], "response": None, "error": {"code": "x", "message": "y"}})
     batches.keep(row, "\n".join(lines) + "\n", fault + "\n")

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from hostile.reader import add, writes
+from stress.hostile.reader import add, writes
 
 
 def _scene(path: Path) -> object:
@@ -20,9 +20,10 @@ def _scene(path: Path) -> object:
     scene = load_scene(path)
     assert type(scene).from_json(scene.to_json()).to_json() == scene.to_json(), "a round trip changes the scene"
     textures = [
-        item.appearance.texture.image.texels
+        material.texture
         for item in scene.objects
-        if getattr(getattr(item.appearance, "texture", None), "image", None) is not None
+        if item.appearance is not None
+        for material in item.appearance.materials
     ]
     return scene.objects, ContactGraph(scene).contacts if len(scene.objects) < 200 else (), textures
 
@@ -111,7 +112,7 @@ def _dae(folder: Path) -> Path:
 
 
 def _urdf(folder: Path) -> Path:
-    from fuzz_scenes import _URDF, seeds
+    from stress.fuzz_scenes import _URDF, seeds
 
     (folder / "case.obj").write_bytes(seeds()[".obj"])
     path = folder / "arm.urdf"
@@ -134,7 +135,7 @@ _MJCF = """<mujoco model="room"><compiler angle="radian" meshdir="."/><option ti
 
 
 def _mjcf(folder: Path) -> Path:
-    from fuzz_scenes import seeds
+    from stress.fuzz_scenes import seeds
 
     (folder / "case.obj").write_bytes(seeds()[".obj"])
     path = folder / "room.xml"
@@ -150,7 +151,7 @@ def _habitat(folder: Path) -> Path:
 
 def _usd(suffix: str) -> Callable[[Path], Path]:
     def content() -> bytes:
-        from usd_seeds import usd_files
+        from stress.usd_seeds import usd_files
 
         return usd_files()[suffix]
 
@@ -158,7 +159,7 @@ def _usd(suffix: str) -> Callable[[Path], Path]:
 
 
 def _scene_json(folder: Path) -> Path:
-    from attacks.bundles import sound
+    from stress.attacks.bundles import sound
 
     sound(folder)
     for one in (folder / "sound").rglob("*"):

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hostile.reader import KEY, add, writes
+from stress.hostile.reader import KEY, add, writes
 
 _STEPS = [
     {"time_s": 0.0, "hand": "left", "touch": "table"},
@@ -39,11 +39,11 @@ def _track_csv(folder: Path) -> Path:
 def _toured(path: Path) -> object:
     from scene2hap import HapticSession, MemorySink
     from scene2hap.session.touch_track import TouchTrack
-    from scene2hap.session.track_player import play_track
+    from scene2hap.session.track_player import PlayedFrame, play_track
     from scenes import table_with_two_phones
 
     track = TouchTrack.load(path)
-    sink, frames = MemorySink(), []
+    sink, frames = MemorySink(), list[PlayedFrame]()
     if track.duration_s <= 1.0:
         with HapticSession(*table_with_two_phones(), {"prepare": "blocking"}, sink=sink) as session:
             session.start()

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from hostile.reader import add, writes
+from stress.hostile.reader import add, writes
 
 
 def _tone(container: str, subtype: str, channels: int = 1) -> Callable[[], bytes]:
@@ -87,7 +87,7 @@ def _reply_read(folder: Path) -> object:
 
     reply = read_reply(folder)
     store = Store(folder / "kept")
-    return reply, [store.keep_clip(f"{i}.wav", read_file(folder, name, 1 << 24), Credit("a", "b", "c"))
+    return reply, [store.keep_clip(f"{i}.wav", read_file(folder, name), Credit("a", "b", "c"))
                    for i, name in enumerate(reply.files)]  # fmt: skip
 
 

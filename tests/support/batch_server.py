@@ -13,9 +13,10 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
 from llm_server import GOOD, Asked, Scripted, said
+from scene2hap.llm.protocol import Component
 from server_thread import running
 
-FIELDS = {
+FIELDS: dict[str, Component] = {
     "scene_category": "scene_analyzer",
     "vibrates": "object_analyzer",
     "density_kg_m3": "material_estimator",
@@ -122,7 +123,7 @@ class BatchServer:
 
     def posted(self, path: str, content: bytes, headers: dict[str, str]) -> tuple[int, Any]:
         if path == "/v1/files":
-            form = BytesParser().parsebytes(f"content-type: {headers['content-type']}\n\n".encode() + content)
+            form: Any = BytesParser().parsebytes(f"content-type: {headers['content-type']}\n\n".encode() + content)
             parts = {part.get_param("name", header="content-disposition"): part for part in form.get_payload()}
             assert parts["purpose"].get_payload() == "batch"
             return 200, {"id": self._store(parts["file"].get_payload(decode=True)), "object": "file"}

@@ -124,7 +124,7 @@ class Client:
 
 def poses_of(frame: int) -> np.ndarray:
     """Poses (30, 7) float32 of the check game in a frame."""
-    return np.hstack((positions_m(frame), np.tile(np.float32((0, 0, 0, 1)), (len(IDS), 1))))
+    return np.hstack((positions_m(frame), np.tile(np.array((0, 0, 0, 1), np.float32), (len(IDS), 1))))
 
 
 def main() -> None:

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 from urllib.parse import urlencode
 
 from server_thread import running
@@ -69,7 +69,7 @@ def served(modules: Path, pages: Mapping[str, str] | None = None) -> Iterator[in
 
     class Handler(SimpleHTTPRequestHandler):
         # Replaces the system's table, which may serve modules as plain text.
-        extensions_map: ClassVar = {
+        extensions_map = {  # noqa: RUF012
             ".html": "text/html",
             ".css": "text/css",
             ".js": "text/javascript",

@@ -124,7 +124,7 @@ def thesis_is_there() -> bool:
 def main() -> None:
     kind = sys.argv[2]
     if sys.argv[3] == "renames":
-        folder_replacement.exchange = lambda one, other: False  # as without exchange
+        vars(folder_replacement)["exchange"] = lambda one, other: False  # as without exchange
     stride, n_steps = int(sys.argv[4]) if len(sys.argv) > 4 else 1, count_steps()
     rows = []
     for step in sorted({*range(1, n_steps, stride), *range(max(1, n_steps - N_AT_THE_END), n_steps + 2)}):

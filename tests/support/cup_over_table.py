@@ -12,7 +12,7 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.session.impacts.landings import Landing, Landings
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.scene_state import SceneState
 
 RESTS_M, G = 0.76, 9.81
 """Height of the resting cup's middle [m], and gravity [m/s2]."""

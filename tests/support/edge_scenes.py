@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from scene2hap import HapticBundle, SceneObject, SceneSnapshot
+from scene2hap.haptics import ObjectHaptics
 from scenes import box, haptics, scene, tone_loop
 
 Bundled = tuple[SceneSnapshot, HapticBundle]
@@ -74,6 +75,6 @@ def on_top_of(item: SceneObject) -> tuple[float, float, float]:
     return (x, y + item.surface.thickness_m / 2, z)
 
 
-def _bundled(snapshot: SceneSnapshot, objects: dict, sources: tuple[str, ...]) -> Bundled:
+def _bundled(snapshot: SceneSnapshot, objects: dict[str, ObjectHaptics], sources: tuple[str, ...]) -> Bundled:
     loops = {name: {"on": tone_loop(100.0 + 20.0 * (n % 5))} for n, name in enumerate(sources)}
     return snapshot, HapticBundle(snapshot, snapshot.name, objects, loops)

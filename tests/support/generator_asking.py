@@ -19,7 +19,7 @@ posix = pytest.mark.skipif(os.name != "posix", reason="process groups, links and
 
 
 def describe(sentence: str = "fan humming softly", **changes: Any) -> VibrationDescription:
-    fields = {"intensity": 0.5, "size_m": (0.3, 0.3, 0.1), "seed": 7} | changes
+    fields: dict[str, Any] = {"intensity": 0.5, "size_m": (0.3, 0.3, 0.1), "seed": 7} | changes
     return VibrationDescription("fan", "on", sentence, "fan humming", **fields)
 
 

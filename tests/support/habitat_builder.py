@@ -134,7 +134,8 @@ def _with_odd_value(text: str, rng: random.Random) -> str:
         document = json.loads(text)
     except ValueError:
         return text
-    place, step = {"": document}, ""
+    place: Any = {"": document}
+    step: Any = ""
     while isinstance(place[step], dict | list) and place[step] and (step == "" or rng.random() < 0.85):
         place = place[step]
         step = rng.choice(list(place) if isinstance(place, dict) else list(range(len(place))))

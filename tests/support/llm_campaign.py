@@ -15,6 +15,7 @@ from collections.abc import Awaitable, Callable, Iterator
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from llm_asking import local, ollama, openai
 from llm_faults import Fault, as_ollama, good
@@ -170,7 +171,7 @@ class _listening(logging.Handler):
         self._caught = self._warnings.__enter__()
         warnings.simplefilter("always")
 
-    def __exit__(self, *how: object) -> None:
+    def __exit__(self, *how: Any) -> None:
         self._warnings.__exit__(*how)
         self._shown.extend(str(warning.message) for warning in self._caught or ())
         logging.root.removeHandler(self)

@@ -19,7 +19,7 @@ from server_thread import running
 KEY = "sk-test-0123456789abcdefghij"
 PNG = b"\x89PNG\r\n\x1a\n0"
 
-GOOD: dict[str, dict[str, Any]] = {
+GOOD: dict[Component, dict[str, Any]] = {
     "scene_analyzer": {"scene_category": "kitchen"},
     "object_analyzer": {
         "object_category": "fridge",

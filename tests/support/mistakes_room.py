@@ -102,7 +102,7 @@ class Room:
 
     def _names(self, life: contextlib.ExitStack, code: str) -> dict[str, Any]:
         """The names that the code may use; sessions only if it does, since most code needs none."""
-        names = {name: getattr(scene2hap, name) for name in scene2hap.__all__}
+        names = {name: getattr(scene2hap, name) for name in vars(scene2hap)["__all__"]}
         names |= {
             "scene": self.scene,
             "other_scene": self.other_scene,

@@ -9,7 +9,7 @@ from functools import cache
 from typing import Any
 
 import jsonschema
-from referencing import Registry, Resource
+from referencing import Registry
 from referencing.jsonschema import DRAFT202012
 
 from llm_server import Scripted, Server, serving
@@ -26,7 +26,7 @@ def _spec() -> dict[str, Any]:
 
 @cache
 def _validator(name: str) -> jsonschema.Draft202012Validator:
-    registry = Registry().with_resource("urn:openai", Resource(_spec(), DRAFT202012))
+    registry = Registry().with_resource("urn:openai", DRAFT202012.create_resource(_spec()))
     return jsonschema.Draft202012Validator({"$ref": f"urn:openai#/components/schemas/{name}"}, registry=registry)
 
 

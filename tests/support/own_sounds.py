@@ -62,7 +62,8 @@ def _clock(rng: np.random.Generator) -> Signal:
     """Two ticks a second, each of a different level, over quiet noise."""
     since, number = _T % 0.5, (_T // 0.5).astype(int)
     level = rng.uniform(0.7, 1.0, number[-1] + 1)[number]
-    return level * np.sin(2 * np.pi * 900 * since) * np.exp(-since / 0.008) + 1e-3 * coloured_noise(rng, len(_T), 0.0)
+    ticks = level * np.sin(2 * np.pi * 900 * since) * np.exp(-since / 0.008)
+    return np.asarray(ticks + 1e-3 * coloured_noise(rng, len(_T), 0.0))
 
 
 _MAKERS: dict[str, Callable[[np.random.Generator], Signal]] = {

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import Plate
 
@@ -18,7 +19,7 @@ CLAMPED = (*HINGED, "u_{n}", "u_xy")
 
 
 @cache
-def finite_elements(plate: Plate, cells: tuple[int, int]):
+def finite_elements(plate: Plate, cells: tuple[int, int]) -> tuple[Any, Any, Any, NDArray[np.intp]]:
     """(basis, K, M, free degrees of freedom) for stiffness over D and mass over rho h; skips without scikit-fem."""
     skfem = pytest.importorskip("skfem", reason="scikit-fem is not installed; run: pip install scikit-fem")
     from skfem.helpers import dd, ddot, eye, trace
@@ -29,13 +30,11 @@ def finite_elements(plate: Plate, cells: tuple[int, int]):
     )
     basis = skfem.Basis(mesh, skfem.ElementTriArgyris(), intorder=10)
 
-    @skfem.BilinearForm
-    def bending(u, v, _):
+    def bending(u: Any, v: Any, _: Any) -> Any:
         moment = (1 - nu) * dd(u) + nu * eye(trace(dd(u)), 2)
         return ddot(moment, dd(v))
 
-    @skfem.BilinearForm
-    def mass(u, v, _):
+    def mass(u: Any, v: Any, _: Any) -> Any:
         return u * v
 
     fixed: set[int] = set()
@@ -51,7 +50,12 @@ def finite_elements(plate: Plate, cells: tuple[int, int]):
         if edge == "C":
             fixed |= set(dofs.all(["u_n"]))
     free = np.setdiff1d(np.arange(basis.N), sorted(fixed))
-    return basis, bending.assemble(basis).tocsc(), mass.assemble(basis).tocsc(), free
+    return (
+        basis,
+        skfem.BilinearForm(bending).assemble(basis).tocsc(),
+        skfem.BilinearForm(mass).assemble(basis).tocsc(),
+        free,
+    )
 
 
 def fe_frequencies_hz(plate: Plate, cells: tuple[int, int], n_modes: int) -> NDArray[np.float64]:
@@ -66,7 +70,7 @@ def fe_frequencies_hz(plate: Plate, cells: tuple[int, int], n_modes: int) -> NDA
 
 
 def fe_receptance(
-    plate: Plate, cells: tuple[int, int], drive_m: object, points_m: object, frequencies_hz: object, eta: float
+    plate: Plate, cells: tuple[int, int], drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike, eta: float
 ) -> NDArray[np.complex128]:
     """Deflection at points over a point force (n_points, n_frequencies) [m/N]; a direct solve at each frequency."""
     from scipy.sparse.linalg import splu
@@ -86,14 +90,18 @@ def fe_receptance(
 _UNITS_PER_M = 60.0  # some degrees of freedom are second derivatives: small elements make them singular
 
 
-def outline_mesh(lines_x: object, lines_y: object, is_cut: object) -> Any:
+def outline_mesh(
+    lines_x: ArrayLike,
+    lines_y: ArrayLike,
+    is_cut: Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.bool_]],
+) -> Any:
     """Triangles between lines [m], without those whose centroids `is_cut`(x, y)."""
     skfem = pytest.importorskip("skfem", reason="scikit-fem is not installed; run: pip install scikit-fem")
-    mesh = skfem.MeshTri.init_tensor(np.unique(np.round(lines_x, 9)), np.unique(np.round(lines_y, 9)))
+    mesh = skfem.MeshTri.init_tensor(*(np.unique(np.round(np.asarray(lines), 9)) for lines in (lines_x, lines_y)))
     return mesh.remove_elements(np.flatnonzero(is_cut(*mesh.p[:, mesh.t].mean(axis=1))))
 
 
-def refined_at(mesh: Any, corners_m: object, times: int) -> Any:
+def refined_at(mesh: Any, corners_m: ArrayLike, times: int) -> Any:
     """Refine a mesh around corners, where curvature grows without bound."""
     for k in range(times):
         middle = mesh.p[:, mesh.t].mean(axis=1)
@@ -103,7 +111,7 @@ def refined_at(mesh: Any, corners_m: object, times: int) -> Any:
 
 
 def fe_receptance_within(
-    plate: Plate, mesh: Any, drive_m: object, points_m: object, frequencies_hz: object, eta: float
+    plate: Plate, mesh: Any, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike, eta: float
 ) -> NDArray[np.complex128]:
     """`fe_receptance` of a free plate within the outline of a mesh [m]."""
     import skfem
@@ -113,15 +121,16 @@ def fe_receptance_within(
     nu, scale = plate.material.poisson_ratio, _UNITS_PER_M
     basis = skfem.Basis(mesh.scaled(scale), skfem.ElementTriArgyris(), intorder=10)
 
-    @skfem.BilinearForm
-    def bending(u, v, _):
+    def bending(u: Any, v: Any, _: Any) -> Any:
         return ddot((1 - nu) * dd(u) + nu * eye(trace(dd(u)), 2), dd(v))
 
-    @skfem.BilinearForm
-    def mass(u, v, _):
+    def mass(u: Any, v: Any, _: Any) -> Any:
         return u * v
 
-    K, M = bending.assemble(basis).tocsc() * scale**2, mass.assemble(basis).tocsc() / scale**2
+    K, M = (
+        skfem.BilinearForm(bending).assemble(basis).tocsc() * scale**2,
+        skfem.BilinearForm(mass).assemble(basis).tocsc() / scale**2,
+    )
     force = np.asarray(basis.probes(scale * np.atleast_2d(drive_m).T).todense())[0].astype(complex)
     look = basis.probes(scale * np.atleast_2d(points_m).T)
     D = plate.bending_stiffness_nm * (1 + 1j * eta)

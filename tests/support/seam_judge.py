@@ -24,7 +24,7 @@ FLOOR_DB = 60.0
 """Bands further than this below the loudest band are raised to this level: they are masked. Between the partials of a
 synthetic tone such bands hold only side lobes of the window."""
 
-Signal = NDArray[np.float64]
+Signal = NDArray[np.floating]
 
 
 @dataclass(frozen=True)

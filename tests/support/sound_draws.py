@@ -32,7 +32,7 @@ def coloured_noise(rng: np.random.Generator, n: int, slope: float) -> Signal:
     spectrum = np.fft.rfft(rng.standard_normal(n))
     f = np.fft.rfftfreq(n, 1 / 48_000)
     x = np.fft.irfft(spectrum * np.maximum(f, 10.0) ** (-slope / 2) * (f > 0), n)
-    return x / x.std()
+    return np.asarray(x / x.std())
 
 
 def band_noise(rng: np.random.Generator, n: int, rate: int, low_hz: float, high_hz: float) -> Signal:
@@ -40,7 +40,7 @@ def band_noise(rng: np.random.Generator, n: int, rate: int, low_hz: float, high_
     spectrum = np.fft.rfft(rng.standard_normal(n))
     f = np.fft.rfftfreq(n, 1 / rate)
     x = np.fft.irfft(spectrum * ((f >= low_hz) & (f <= high_hz)), n)
-    return x / x.std()
+    return np.asarray(x / x.std())
 
 
 def loop_clip(

@@ -59,7 +59,7 @@ def amplitudes(samples: np.ndarray, burst: Any) -> np.ndarray:
     columns = np.zeros((len(samples), len(waves)))
     for k, wave in enumerate(waves):
         columns[: len(wave), k] = wave[: len(samples)]
-    return np.linalg.lstsq(columns, samples.astype(float), rcond=None)[0].T
+    return np.asarray(np.linalg.lstsq(columns, samples.astype(float), rcond=None)[0].T)
 
 
 def burst_at(made: HapticSession, point_m: tuple[float, float, float]) -> Any:

@@ -14,7 +14,7 @@ def damaged(pieces: Iterable[bytes], rate: float, rng: np.random.Generator) -> I
             continue
         out = bytearray()
         start = 0
-        for place in hit:
+        for place in hit.tolist():
             out += piece[start:place]
             start = place + 1
             kind = rng.integers(3)

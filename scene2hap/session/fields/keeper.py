@@ -10,6 +10,7 @@ import weakref
 from collections.abc import Callable, Sequence
 from threading import Thread
 
+from scene2hap.common.deadline import Deadline
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import failure_of
 from scene2hap.haptics import Bands
@@ -23,11 +24,10 @@ from scene2hap.propagation.protocol import (
     PropagationModel,
     follows_poses,
 )
-from scene2hap.session.deadline import Deadline
 from scene2hap.session.fields.prepared import FieldInUse, LastField
 from scene2hap.session.fields.worker import FieldRequest, FieldWorker, PreparedField, WorkerSignal
-from scene2hap.session.reach import Reach
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.reach import Reach
+from scene2hap.session.present_scene.scene_state import SceneState
 from scene2hap.session.stats import SessionStats
 
 

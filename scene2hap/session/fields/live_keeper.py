@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from scene2hap.common.deadline import Deadline
 from scene2hap.haptics import Bands
 from scene2hap.propagation.live import LiveField, LiveModel, SucceedingField
 from scene2hap.propagation.protocol import Body, Excitation, PropagationField, PropagationModel
-from scene2hap.session.deadline import Deadline
 from scene2hap.session.fields.prepared import LastField
-from scene2hap.session.reach import Reach
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.reach import Reach
+from scene2hap.session.present_scene.scene_state import SceneState
 from scene2hap.session.stats import SessionStats
 
 _MANY = 100

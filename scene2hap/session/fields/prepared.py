@@ -18,7 +18,7 @@ from scene2hap.propagation.protocol import PropagationField, checked_gains
 from scene2hap.scene.geometry import Vector
 from scene2hap.scene.pose import Pose
 from scene2hap.session.fields.worker import PreparedField
-from scene2hap.session.reach import Reach
+from scene2hap.session.present_scene.reach import Reach
 
 
 class LastField:

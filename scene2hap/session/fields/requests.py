@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Protocol
 
+from scene2hap.common.deadline import Deadline
 from scene2hap.contact.graph import ContactChange
 from scene2hap.propagation.exponential_plate import ExponentialPlate
 from scene2hap.propagation.live import LiveField, live_model
@@ -16,14 +17,13 @@ from scene2hap.propagation.protocol import Body, Excitation, PropagationField, f
 from scene2hap.propagation.reference import FeltNear
 from scene2hap.scene.pose import Pose
 from scene2hap.session.config import SessionConfig
-from scene2hap.session.deadline import Deadline
 from scene2hap.session.fields.keeper import FieldKeeper
 from scene2hap.session.fields.live_keeper import LiveKeeper
 from scene2hap.session.mix.sources import Sources
-from scene2hap.session.network import excitations_of
-from scene2hap.session.reach import Reach
-from scene2hap.session.scene_state import SceneState
-from scene2hap.session.stats import Counts, SessionStats
+from scene2hap.session.present_scene.network import excitations_of
+from scene2hap.session.present_scene.reach import Reach
+from scene2hap.session.present_scene.scene_state import SceneState
+from scene2hap.session.stats import SessionStats, SkipCounts
 
 
 class FieldProvider(Protocol):
@@ -82,7 +82,7 @@ class FieldRequests:
     Raises: the errors of the model, if no worker prepares.
     """
 
-    def __init__(self, config: SessionConfig, state: SceneState, sources: Sources, counts: Counts) -> None:
+    def __init__(self, config: SessionConfig, state: SceneState, sources: Sources, counts: SkipCounts) -> None:
         self._config, self._state, self._sources, self._counts = config, state, sources, counts
         # None if the model does not follow poses.
         self._poses: Mapping[str, Pose] | None = state.poses if follows_poses(config.propagation) else None
@@ -100,7 +100,8 @@ class FieldRequests:
     def excitations(self) -> Sequence[Excitation]:
         """The excitation of each source in its present state; the same sequence until one changes."""
         if self._excitations is None:
-            self._excitations = excitations_of(self._sources.active_rows(), self._state.bodies, self._state.haptics)
+            loops = [(row.source_id, row.loop) for row in self._sources.active_rows()]
+            self._excitations = excitations_of(loops, self._state.bodies, self._state.haptics)
         return self._excitations
 
     def apply(self, change: ContactChange, *, sources_changed: bool) -> bool:

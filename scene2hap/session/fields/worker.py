@@ -18,6 +18,7 @@ from threading import Event, Thread
 
 import numpy as np
 
+from scene2hap.common.worker_threads import start_worker
 from scene2hap.haptics import Bands
 from scene2hap.propagation.live import TouchedPoint
 from scene2hap.propagation.protocol import (
@@ -28,8 +29,7 @@ from scene2hap.propagation.protocol import (
     checked_field,
 )
 from scene2hap.scene.pose import Pose
-from scene2hap.session.scene_state import ModelInput
-from scene2hap.session.worker_threads import start_worker
+from scene2hap.session.present_scene.scene_state import ModelInput
 
 AT_REST_S = 0.05
 """Time without a change after which the whole scene is prepared, not only the objects near the hands [s]."""

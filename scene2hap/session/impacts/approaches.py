@@ -18,7 +18,7 @@ from scene2hap.scene.pose import in_own, in_world
 from scene2hap.session.impacts.motion_track import LEAST_TRAVEL_M, STILL
 from scene2hap.session.impacts.relative_motion import RelativeMotion
 from scene2hap.session.impacts.slams import Slam, is_closed, may_enclose, slam_of
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.scene_state import SceneState
 
 _PLANE_POINTS, _LEAST_WIDTH_M, _FLAT = 3, 0.003, 0.1
 """Fewest points of a contact that span a plane, their least width, and their largest thickness relative to it."""

@@ -24,20 +24,20 @@ from scene2hap.audio.levels import TACTILE_HEADROOM_DB, drive_db
 from scene2hap.audio.threshold import NOTICED_DB, TACTILE_RANGE_HZ, threshold_db
 from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import clear_attributes
+from scene2hap.common.deadline import Deadline
+from scene2hap.common.worker_threads import WorkerPool
 from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.live import PointField, TouchedPoint
 from scene2hap.render.bursts import LEAST_SUM, Samples, peak_of, wave_of
 from scene2hap.scene.pose import Pose
 from scene2hap.session.config import SessionConfig
-from scene2hap.session.deadline import Deadline
-from scene2hap.session.frame import Felt
+from scene2hap.session.frame import TouchesByHand
 from scene2hap.session.impacts.gains import Point, struck_later, struck_live
 from scene2hap.session.impacts.landings import Landings
 from scene2hap.session.mix.playback import Playback
 from scene2hap.session.mix.sources import Level
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.scene_state import SceneState
 from scene2hap.session.user_profile import UserProfile
-from scene2hap.session.worker_threads import WorkerPool
 
 if TYPE_CHECKING:
     from scene2hap.session.impacts.preparation import ImpactPreparation
@@ -145,12 +145,12 @@ class Impacts:
         """Use the levels of another person for impacts from now on."""
         self._profile = None if profile.is_neutral else profile
 
-    def strike(self, strike: Strike, felt: Felt, at_frame: int) -> Impact:
+    def strike(self, strike: Strike, touches: TouchesByHand, at_frame: int) -> Impact:
         """Play an impact at the hands that touch something."""
         self.take_late()
         impact, burst = self._impact(strike, at_frame)
-        if self._is_admitted(strike, felt, at_frame):
-            self._play(impact, burst, felt)
+        if self._is_admitted(strike, touches, at_frame):
+            self._play(impact, burst, touches)
         return impact
 
     def forget_motions(self) -> None:
@@ -163,18 +163,18 @@ class Impacts:
         if self._landings is not None:
             self._landings.begin(moved, at_frame / self._config.sample_rate_hz)
 
-    def follow(self, moved: Mapping[str, Pose] | None, felt: Felt, at_frame: int) -> None:
+    def follow(self, moved: Mapping[str, Pose] | None, touches: TouchesByHand, at_frame: int) -> None:
         """Play the landings of an update, and prepare for impacts around the touched objects. Call it in each one."""
         self.take_late()
         if self._landings is not None:
             for one in self._landings.look(moved or {}, at_frame / self._config.sample_rate_hz):
                 landing = Strike(one.onto, one.point_m, one.object_id, one.speed_m_s)
                 # Checked first, so that nothing is computed for a skipped impact.
-                if self._is_admitted(landing, felt, at_frame, self._updated_at):
-                    self._play(*self._impact(landing, at_frame), felt)
+                if self._is_admitted(landing, touches, at_frame, self._updated_at):
+                    self._play(*self._impact(landing, at_frame), touches)
         self._updated_at = at_frame
         if self._ahead is not None:
-            self._ahead.expect({touch.object_id for touches in felt.values() for touch in touches})
+            self._ahead.expect({touch.object_id for each in touches.values() for touch in each})
 
     def _impact(self, strike: Strike, at_frame: int) -> tuple[Impact, Burst]:
         struck = self._state.meeting(strike.object_id)
@@ -193,12 +193,12 @@ class Impacts:
             burst,
         )
 
-    def _play(self, impact: Impact, burst: Burst, felt: Felt) -> None:
+    def _play(self, impact: Impact, burst: Burst, touches: TouchesByHand) -> None:
         at_frame, f, profile = impact.at_sample, burst.frequencies_hz, self._profile
         # A hand may be removed before a worker has the gains, and has another output if it is added again.
         outputs = self._playback.outputs
         touched: dict[str, list[TouchedPoint]] = {
-            hand: [(x.object_id, x.point_m) for x in touches] for hand, touches in felt.items() if hand in outputs
+            hand: [(x.object_id, x.point_m) for x in each] for hand, each in touches.items() if hand in outputs
         }
 
         def started(gains: Floats, begin: int, among: Collection[str]) -> dict[str, float]:
@@ -250,7 +250,7 @@ class Impacts:
     def recent(self) -> tuple[Impact, ...]:
         """The impacts of the last second that any hand felt, the latest first."""
         self.take_late()
-        since = self._playback.position - self._config.sample_rate_hz
+        since = self._playback.clock.position - self._config.sample_rate_hz
         return tuple(one for one in reversed(self._recent) if one.at_sample >= since)
 
     def wait(self, end: Deadline) -> bool:
@@ -316,7 +316,7 @@ class Impacts:
     def _peak(self, waves: list[Samples], weights: Floats, decays_s: Floats) -> float:
         return peak_of(waves, weights, decays_s, self._config.sample_rate_hz)
 
-    def _is_admitted(self, strike: Strike, felt: Felt, at_frame: int, since: float = math.inf) -> bool:
+    def _is_admitted(self, strike: Strike, touches: TouchesByHand, at_frame: int, since: float = math.inf) -> bool:
         """Whether an impact may be felt. Counts it, unless it is another report of the last impact of its pair.
 
         An impact that nobody could feel may be reported again, since a hand may arrive in the same frame.
@@ -331,7 +331,7 @@ class Impacts:
             self.n_reported += 1
             last = _Report(at_frame, is_settled=False)
         was_settled = last.is_settled
-        may_be_felt = bool(felt) and not self._playback.is_paused and bool(self._level.factor)
+        may_be_felt = bool(touches) and not self._playback.is_paused and bool(self._level.factor)
         self._last[pair] = _Report(last.at_frame, is_settled=was_settled or may_be_felt)
         while len(self._last) > KEPT:
             del self._last[next(iter(self._last))]
@@ -365,7 +365,7 @@ class Impacts:
                 gains = prepared()
             except (Exception, SystemExit):  # the field in use fails in the same way, and warns
                 return None
-            begin = playback.position
+            begin = playback.clock.position
             return started(gains, begin) if begin <= latest else None
 
         self._waiting.append((impact, self._workers.submit(work)))

@@ -26,7 +26,7 @@ from scene2hap.propagation.protocol import (
     follows_poses,
 )
 from scene2hap.scene.objects import Contact
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.scene_state import SceneState
 
 Point = tuple[float, float, float]
 

@@ -37,7 +37,7 @@ from scene2hap.session.impacts.motion_track import (
 )
 from scene2hap.session.impacts.relative_motion import RelativeMotion
 from scene2hap.session.impacts.sudden_stop import SuddenStop
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.scene_state import SceneState
 
 LEAST_SPEED_M_S = 0.1
 """A cup put down more slowly is as good as not felt, and trackers shake as fast."""

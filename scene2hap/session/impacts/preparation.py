@@ -15,13 +15,13 @@ from typing import NamedTuple
 import numpy as np
 
 from scene2hap.common.arrays import Floats
+from scene2hap.common.deadline import Deadline
 from scene2hap.propagation.coupled.impact_scene import ImpactScene
 from scene2hap.propagation.coupled.substructuring import prepare_struck
 from scene2hap.propagation.live import TouchedPoint
 from scene2hap.propagation.protocol import Body, CoupledModel
-from scene2hap.session.deadline import Deadline
 from scene2hap.session.impacts.gains import Point, at_least_itself
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.scene_state import SceneState
 
 AT_REST_S, EVERY_S = 0.05, 1.0
 """A scene is prepared again once its contacts have rested for `AT_REST_S`, or after `EVERY_S` of changes [s]."""

@@ -27,7 +27,7 @@ from scene2hap.scene.hinges import HINGE_PLAY_M
 from scene2hap.scene.objects import Hinge, SceneObject
 from scene2hap.scene.pose import Pose, in_own, in_world
 from scene2hap.scene.shapes import Box
-from scene2hap.session.network import own_middle_m
+from scene2hap.session.present_scene.network import own_middle_m
 
 CLOSED_M = 0.005
 """Greatest distance of a closed drawer from its place in the scene [m]; assumed: physics engines let it rebound."""

@@ -22,9 +22,9 @@ from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.threshold import threshold_db
 from scene2hap.common.caches import CacheWhileUsed
 from scene2hap.common.forks import lock_of_process, renew_in_child
+from scene2hap.common.worker_threads import WorkerPool
 from scene2hap.haptics import Bands
 from scene2hap.render.loop_bank import LoopBank
-from scene2hap.session.worker_threads import WorkerPool
 
 MOST_BYTES = 32 * 2**20
 """Size of the cache of the newest loops, whose clips may be gone."""

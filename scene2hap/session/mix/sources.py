@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
+from scene2hap.bundle.override import warn_if_percent
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_attributes
-from scene2hap.common.warning import warn_if_percent
 from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.session.config import MAX_GAIN_DB

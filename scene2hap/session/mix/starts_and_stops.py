@@ -10,9 +10,9 @@ import zlib
 
 from scene2hap.contact_needs import meets
 from scene2hap.render.transition import STEADY, STILL, Running, Transition, TransitionCurve
-from scene2hap.session.mix.playback import Playback
+from scene2hap.session.mix.loop_mixers import Clock, LoopMixers
 from scene2hap.session.mix.sources import LoopRow, Source, SourceProgress, Sources
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.scene_state import SceneState
 
 
 class Switching:
@@ -22,8 +22,11 @@ class Switching:
     do not start together. A new source, before its first update, is switched at once.
     """
 
-    def __init__(self, sources: Sources, playback: Playback, state: SceneState, sample_rate_hz: int) -> None:
-        self._sources, self._playback, self._state, self._rate_hz = sources, playback, state, sample_rate_hz
+    def __init__(
+        self, sources: Sources, mixers: LoopMixers, clock: Clock, state: SceneState, sample_rate_hz: int
+    ) -> None:
+        self._sources, self._mixers, self._clock, self._state = sources, mixers, clock, state
+        self._rate_hz = sample_rate_hz
         self._transitions: dict[str, Transition] = {}
         # Where a source's on-time or off-time ends [frames], and the source, since another may get the same id. Parts
         # of a frame are kept, since they add up. It ends at the nearest frame: 1.1 s are 52800.00000000001 frames.
@@ -49,7 +52,7 @@ class Switching:
     ) -> bool:
         """Set the arguments that are not None. A person who switches a source on, or to another state, begins a new
         on-time, unless the source is new. Returns true if this changed its state. Raises: see `Sources.set`."""
-        source, now = self._sources[source_id], self._playback.now
+        source, now = self._sources[source_id], self._clock.now
         was_running = source.is_running
         is_other_state = self._sources.set(source_id, on, state, gain_db, mute)
         if is_other_state:
@@ -76,13 +79,13 @@ class Switching:
         for source_id, (running, source) in resumed.items():
             if self._sources.get(source_id) is source:
                 self._begin_transition(source_id, source, now, running)
-        over = [source_id for source_id, one in self._transitions.items() if now >= self._playback.end_frame(one)]
+        over = [source_id for source_id, one in self._transitions.items() if now >= self._mixers.end_frame(one)]
         for source_id in over:
             del self._transitions[source_id]
             if source_id in self._sources:
                 self._sources.play_transition(source_id, None)
         if over:
-            self._playback.change_rows(self._sources.rows(), now)
+            self._mixers.change_rows(self._sources.rows(), now)
         due = [source_id for source_id, (end, _) in self._turns.items() if now >= round(end)]
         for source_id in due:
             source = self._sources[source_id]
@@ -115,12 +118,12 @@ class Switching:
     def running(self, source_id: str) -> Running:
         """Speed and amplitude of a source that is on, or that still stops."""
         transition = self._transitions.get(source_id)
-        return STEADY if transition is None else self._playback.running(transition, self._playback.now)
+        return STEADY if transition is None else self._mixers.running(transition, self._clock.now)
 
     def progress(self, source_id: str) -> SourceProgress:
         """How far a source is in its start or stop and in its cycle. Raises: UnknownObject."""
         source, (end, turning) = self._sources[source_id], self._turns.get(source_id, (0, None))
-        left_s = max(0, end - self._playback.now) / self._rate_hz if turning is source else None
+        left_s = max(0, end - self._clock.now) / self._rate_hz if turning is source else None
         if source.transition_row is None:
             return SourceProgress(None, None, source.is_resting, left_s)
         speed, amplitude = self.running(source_id)
@@ -131,7 +134,7 @@ class Switching:
         self._sources.go_on(source_id, before)
         source = self._sources[source_id]
         if not source.is_new:
-            self._resume_turn(source_id, source, self._playback.now, progress)
+            self._resume_turn(source_id, source, self._clock.now, progress)
 
     def _resume(self, source_id: str, source: Source, now: int, progress: SourceProgress) -> None:
         """Let a source go on where that of a saved game was."""
@@ -221,7 +224,7 @@ class Switching:
             before = None  # that of another state, which ended with it, or of a game that was replaced
         if since is None:
             at_rest = STILL if goes_up else STEADY
-            since = at_rest if before is None else self._playback.running(before, now)
+            since = at_rest if before is None else self._mixers.running(before, now)
         self._sources.play_transition(source_id, None)
         inferred = source.inferred.get(source.state)
         lasts_s = 0.0 if inferred is None else inferred.start_up_s if goes_up else inferred.wind_down_s
@@ -232,11 +235,11 @@ class Switching:
             course = TransitionCurve(
                 goes_up, inferred.spins, steady.loop.start_up if goes_up else steady.loop.wind_down
             )
-            transition = self._playback.start_transition(row, steady, now, lasts_s, course, since, before)
+            transition = self._mixers.start_transition(row, steady, now, lasts_s, course, since, before)
             if transition is not None:
                 self._transitions[source_id] = transition
                 self._sources.play_transition(source_id, row)
-        self._playback.change_rows(self._sources.rows(), now)
+        self._mixers.change_rows(self._sources.rows(), now)
 
 
 def _first_share(source_id: str) -> float:

@@ -27,6 +27,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from bridge_client import Client, Refused
+from mutated_messages import ON_TABLE, mutated
 from scene2hap import HapticSession, Touch
 from scene2hap.bridge import BridgeConfig, BridgeServer
 from scene2hap.bridge.client import Client as BridgeClient
@@ -46,7 +47,7 @@ from systems import needs_links
 Bridge = Callable[..., BridgeServer]
 
 TOKEN = "correct horse battery staple"
-ON_TABLE = Touch("left", "table", (0.0, 0.72, 0.0))
+
 NO_POSES = np.empty((0, 7), np.float32)
 
 
@@ -464,30 +465,6 @@ def test_random_and_mutated_messages(bridge: Bridge) -> None:
             if turn % 100 == 0:
                 assert_plays(honest, turn + 1)
         client.socket.close()
-
-
-def mutated(client: Client, rng: random.Random) -> str | bytes:
-    """A message that is nearly valid, or random bytes."""
-    texts = [
-        {"type": "set_source", "source": "phone", "gain_db": -3.0, "id": 4},
-        {"type": "strike", "object": "table", "point_m": [0.0, 0.72, 0.0], "speed_m_s": 1.0},
-        {"type": "set_user", "gain_db": 1.0, "profile": {"hands": {}}},
-        {"type": "moving", "moving": ["phone", "mug"]},
-        {"type": "explain", "hand": "left"},
-        {"type": "remove", "object": "spoon"},
-        {"type": "stats"},
-    ]
-    if rng.random() < 0.5:
-        text = bytearray(json.dumps(rng.choice(texts)).encode())
-        for _ in range(rng.randrange(4)):
-            text[rng.randrange(len(text))] = rng.randrange(32, 127)
-        return text.decode("ascii")
-    if rng.random() < 0.2:
-        return rng.randbytes(rng.randrange(200))
-    frame = bytearray(client.frame(rng.randrange(2**32), rng.random() * 100, np.zeros((1, 7)) + 0.5, [ON_TABLE]))
-    for _ in range(rng.randrange(4)):
-        frame[rng.randrange(len(frame))] = rng.randrange(256)
-    return bytes(frame[: rng.randrange(len(frame))]) if rng.random() < 0.2 else bytes(frame)
 
 
 @contextmanager

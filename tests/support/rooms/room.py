@@ -14,6 +14,7 @@ from gltf_builder import Gltf
 from looks import embedded, image_file
 from scene2hap import Pose, SceneObject, SceneSnapshot, TriMesh
 from scene2hap.contact.junction import Pair, pair_of
+from scene2hap.scene.geometry import vector
 from scene2hap.scene.objects import with_relative_heights
 from scene2hap.scene.shapes import Box
 from scene2hap.scene.surface.dominant_surface import dominant_surface
@@ -67,7 +68,7 @@ class Room:
         """The room as exported from a program whose unit is `unit_m` metres."""
         meshes = {id(thing.mesh): scaled(thing.mesh, 1 / unit_m) for thing in self.things}
         things = [
-            replace(thing, mesh=meshes[id(thing.mesh)], at_m=tuple(x / unit_m for x in thing.at_m))
+            replace(thing, mesh=meshes[id(thing.mesh)], at_m=vector(np.array(thing.at_m) / unit_m))
             for thing in self.things
         ]
         return replace(self, things=tuple(things))

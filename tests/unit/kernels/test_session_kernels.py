@@ -18,7 +18,7 @@ def test_kernels_select_the_same_sources_within_the_cut_off(seed: int, n: int) -
     costs = rng.choice([0.0, 1.0, 2.0, math.inf], (n, 5)).tolist()
     cutoff = rng.choice([-1.0, 0.0, 1.5, math.inf], 5).tolist()
     sought = [frozenset(rng.choice(5, int(rng.integers(0, 5)), replace=False).tolist()) for _ in range(n)]
-    plain, twin = both("session.audibility.within")
+    plain, twin = both("session.gains.audibility.within")
     assert twin(costs, cutoff, sought) == plain(costs, cutoff, sought)
 
 
@@ -29,7 +29,7 @@ def test_kernels_silence_the_same_bands(seed: int, n: int) -> None:
     least = rng.choice([0.0, 0.5, np.inf], (4, 5)).astype(np.float32)
     columns = None if rng.random() < 0.3 else sorted(rng.choice(4, int(rng.integers(0, 5)), replace=False).tolist())
     gains = rng.choice([0.0, 0.4, 0.5, 0.6, np.nan], (n, 4 if columns is None else len(columns), 5)).astype(np.float32)
-    plain, twin = both("session.audibility.silence")
+    plain, twin = both("session.gains.audibility.silence")
     told, compiled = gains.copy(), gains.copy()
     assert twin(compiled, least, columns) == plain(told, least, columns)
     np.testing.assert_array_equal(compiled, told)
@@ -42,7 +42,7 @@ def test_kernels_select_the_same_audible_sources(seed: int, n: int, m: int, has_
     gains = rng.choice([0.0, 1e-9, 0.1, 0.5], (n, m, 5), p=[0.6, 0.1, 0.2, 0.1]).astype(np.float32)
     peaks = rng.uniform(0, 2, (m, 5)).astype(np.float32) if has_peaks else None
     least = rng.choice([0.0, 0.2, np.inf], (m, 5)).astype(np.float32) if has_least else None
-    told, compiled = (kind(gains, peaks, 0.3, least) for kind in both("session.audibility.sifted"))
+    told, compiled = (kind(gains, peaks, 0.3, least) for kind in both("session.gains.audibility.sifted"))
     np.testing.assert_array_equal(compiled[0], told[0])
     assert compiled[0].flags.c_contiguous
     assert compiled[1:] == told[1:]

@@ -162,7 +162,7 @@ def test_slots_of_removed_sources_are_reused() -> None:
         s.update(touches=[ON_TABLE])
         s.render(RATE // 10)
         s.remove("fan")
-    assert len(s._playback._mixers) == 1
+    assert len(s._mixers._mixers) == 1
 
 
 def test_added_hand_has_the_gains_of_initial_hands() -> None:
@@ -247,9 +247,9 @@ def test_an_added_hand_feels_at_once_what_a_hand_from_the_start_would() -> None:
 def test_an_added_hand_is_in_phase_if_a_block_was_rendered_meanwhile(monkeypatch: pytest.MonkeyPatch) -> None:
     added = session()
     still = HapticSession(*table_with_two_phones(), CONFIG, hands=("left", "right", "foot"))
-    new_plan = added._playback._new_plan
+    new_plan = added._mixers._new_plan
     # The audio thread takes its block between the new mixer and the plan that plays it.
-    monkeypatch.setattr(added._playback, "_new_plan", lambda: (added.render(777), new_plan())[1])
+    monkeypatch.setattr(added._mixers, "_new_plan", lambda: (added.render(777), new_plan())[1])
     added.add_hand("foot")
     still.render(777)
     outs = []

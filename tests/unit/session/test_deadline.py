@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import pytest
 
 from scene2hap import HapticSession
-from scene2hap.session import deadline
-from scene2hap.session.deadline import Deadline
+from scene2hap.common import deadline
+from scene2hap.common.deadline import Deadline
 from scenes import RATE, table_with_two_phones
 
 
@@ -33,7 +33,7 @@ def test_all_waits_of_a_session_share_its_timeout(
 ) -> None:
     s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE})
     clock = Clock(monkeypatch)
-    for part in (s._playback, s._impacts, s._hand_frames, s._shapes):
+    for part in (s._mixers, s._impacts, s._hand_frames, s._shapes):
         monkeypatch.setattr(part, "wait", clock.later)
     assert s.wait_prepared(timeout_s)
     assert clock.left_s == left_s

@@ -10,7 +10,7 @@ import pytest
 
 from scene2hap import HapticBundle, HapticSession, Outline, SceneSnapshot, Touch
 from scene2hap.scene.objects import SceneObject
-from scene2hap.session.network import PlatePoses, body_of
+from scene2hap.session.present_scene.network import PlatePoses, body_of
 from scenes import table_with_two_phones
 
 

@@ -139,7 +139,7 @@ def test_many_copies_leak_no_memory() -> None:
     s.update()
     gc.collect()
     assert sum(copy() is not None for copy in copies) == 5
-    assert len(s._playback._mixers) == 1
+    assert len(s._mixers._mixers) == 1
 
 
 def test_copies_leave_nothing_to_the_garbage_collector() -> None:

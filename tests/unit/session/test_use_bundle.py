@@ -28,7 +28,7 @@ from scene2hap import (
 )
 from scene2hap.errors import BundleError
 from scene2hap.session import bundle_watch
-from scene2hap.session.mix import playback, prepared_loops
+from scene2hap.session.mix import loop_mixers, prepared_loops
 from scenes import RATE, table_with_two_phones
 
 
@@ -75,7 +75,7 @@ def test_a_source_is_felt_while_a_worker_prepares_its_new_loop(
     session = HapticSession(bundle)
     before = felt(session, source)
     prepared: Future[prepared_loops.PreparedLoop] = Future()
-    monkeypatch.setattr(playback, "order", lambda *_: prepared)
+    monkeypatch.setattr(loop_mixers, "order", lambda *_: prepared)
     touch, edited = Touch("left", source, session.poses[source].position_m), buzz(60.0)
     for times in (0.5, 1.0):  # a second edit comes before the first is prepared
         samples = (times * edited.tactile.samples).astype(np.float32)

@@ -11,7 +11,7 @@ import pytest
 
 from scene2hap import Bands, ExponentialPlate, FullPropagation, HapticSession, NoPropagation, Pose, Touch
 from scene2hap.errors import ModelDomainError
-from scene2hap.session.audibility import SILENT
+from scene2hap.session.gains.audibility import SILENT
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
 
 ON_TABLE = Touch("left", "table", (0.8, 0.72, 0.4))

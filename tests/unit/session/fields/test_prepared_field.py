@@ -10,7 +10,7 @@ from scene2hap.haptics import Bands
 from scene2hap.propagation.live import TouchedPoint
 from scene2hap.session.fields.prepared import FieldInUse
 from scene2hap.session.fields.worker import FieldRequest, PreparedField
-from scene2hap.session.scene_state import ModelInput
+from scene2hap.session.present_scene.scene_state import ModelInput
 
 HERE = (0.0, 0.0, 0.0)
 SOURCES = ("a", "b")

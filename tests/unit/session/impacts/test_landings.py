@@ -15,7 +15,7 @@ from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import TriMesh
 from scene2hap.session.impacts.landings import Landing, Landings
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.scene_state import SceneState
 
 PERIOD_S = 1 / 90
 Path = Iterator[tuple[float, float, float]]

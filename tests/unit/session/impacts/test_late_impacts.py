@@ -156,14 +156,14 @@ def test_strike_while_another_thread_changes_the_hands_is_felt_by_its_hand(monke
     made.update(touches=[Touch("right", "table", NEAR)])
     struck: list[Impact] = []
     for name in ("add_hand", "remove_hand"):
-        change = getattr(made._playback, name)
+        change = getattr(made._mixers, name)
 
         def changed(*hand: Any, change: Any = change) -> None:
             change(*hand)
             # The mix has the new hands here, and the session still the former ones.
             struck.append(made.strike("table", STRUCK, with_object=(None, "cup")[len(struck)]))
 
-        monkeypatch.setattr(made._playback, name, changed)
+        monkeypatch.setattr(made._mixers, name, changed)
     made.add_hand("foot")
     made.remove_hand("left")
     assert [[*impact.felt] for impact in struck] == [["right"], ["right"]]

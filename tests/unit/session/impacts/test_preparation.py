@@ -22,10 +22,10 @@ from scene2hap import (
     Touch,
     bake,
 )
+from scene2hap.common.deadline import Deadline
 from scene2hap.propagation.coupled import impact_solution
 from scene2hap.propagation.impact import burst_of
 from scene2hap.propagation.plate import Plate
-from scene2hap.session.deadline import Deadline
 from scene2hap.session.impacts.felt_impacts import struck_later
 from scene2hap.session.impacts.preparation import ImpactPreparation
 from scenes import table_with_two_phones

@@ -251,10 +251,10 @@ def test_repeated_switching_leaks_no_memory() -> None:
     for step in range(200):
         made.set_source("phone", on=step % 2 == 1)
         envelope(made, 0.2, 0.1)
-    places = made._playback._places
+    places = made._mixers._places
     assert len(places) == 3
-    assert sum(one is not None for one in made._playback._banks[0].slots) <= 5
-    assert len(made._playback._banks) == 1
+    assert sum(one is not None for one in made._mixers._banks[0].slots) <= 5
+    assert len(made._mixers._banks) == 1
 
 
 @pytest.mark.parametrize(

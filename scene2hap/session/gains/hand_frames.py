@@ -2,29 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.deadline import Deadline
 from scene2hap.contact.graph import ContactChange
 from scene2hap.propagation.live import LiveField, PathCostField
-from scene2hap.session.audibility import SILENT, Audibility, CutoffCost
 from scene2hap.session.config import SessionConfig
-from scene2hap.session.deadline import Deadline
-from scene2hap.session.explain import Explainer
-from scene2hap.session.explanation import Explanation
 from scene2hap.session.fields.requests import FieldProvider, FieldRequests
-from scene2hap.session.frame import Felt, HapticFrame, Touch
-from scene2hap.session.hand_gains import AllGains, GainMethod, HandGains, Loudness, PrunedGains, TouchGains
+from scene2hap.session.frame import HapticFrame, Touch, TouchesByHand
+from scene2hap.session.gains.audibility import SILENT, Audibility, CutoffCost
+from scene2hap.session.gains.hand_gains import AllGains, GainMethod, HandGains, Loudness, PrunedGains, TouchGains
 from scene2hap.session.mix.sources import LoopRow, Sources
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.scene_state import SceneState
 from scene2hap.session.stats import Counts, SessionStats
 from scene2hap.session.user_profile import PersonalGains, UserProfile
 
 PeaksOf = Callable[[Sequence[LoopRow]], NDArray[np.float32]]
 """Peaks (n_rows, 2, n_bands) of the loops of some rows, 0 for loops that are not ready to be mixed."""
+
+
+class LastFrame(NamedTuple):
+    """What one hand got at the last frame.
+
+    touches : of the hand, of objects that are still there; field : in use, at which `gains` evaluates touches; levels :
+    of each source at the hand, by band (n_bands,) [-]; peaks : of each source in each band, in thresholds of touch
+    (n_sources, n_bands); is_current, failure : see `Explanation`.
+    """
+
+    hand: str
+    touches: Sequence[Touch]
+    frame: HapticFrame
+    field: object
+    gains: TouchGains
+    levels: Mapping[str, NDArray[np.float64]]
+    peaks: NDArray[np.float32]
+    is_current: bool
+    failure: str
 
 
 class HandFrames:
@@ -48,11 +66,11 @@ class HandFrames:
         self._audibility: Audibility | None = None
         self._loudness: Loudness | None = None
         self._cutoff: tuple[PathCostField, CutoffCost] | None = None
-        self._felt: Felt = {}
+        self._touches: TouchesByHand = {}
         self._frame = self.silence()
-        # Whether `_frame` holds for the touches `_felt` as long as none of their objects moves.
+        # Whether `_frame` holds for `_touches` as long as none of their objects moves.
         self._is_fresh = False
-        self._fields = FieldRequests(config, state, sources, self._counts)
+        self._fields = FieldRequests(config, state, sources, self._counts.skipped)
         self.keeper: FieldProvider = self._fields.keeper
 
     def apply(self, change: ContactChange, *, sources_changed: bool = False) -> None:
@@ -84,33 +102,35 @@ class HandFrames:
     def use_hands(self, hands: tuple[str, ...]) -> None:
         """Use other hands. Those that remain keep their touches."""
         self.hands = hands
-        self._felt = {hand: self._felt[hand] for hand in hands if hand in self._felt}
+        self._touches = {hand: self._touches[hand] for hand in hands if hand in self._touches}
         self.levels_changed()
 
-    def frame(self, felt: Felt, moved: Collection[str], *, is_paused: bool) -> tuple[HapticFrame, HandGains | None]:
+    def frame(
+        self, touches: TouchesByHand, moved: Collection[str], *, is_paused: bool
+    ) -> tuple[HapticFrame, HandGains | None]:
         """Gains of the hands, and the part to be mixed; None if nothing has changed."""
         self._catch_up()
         if self.keeper.take():
             self._is_fresh = False
         gained = None
-        if self._is_unchanged(felt, moved):
-            self._counts.unchanged_frames += 1
+        if self._is_unchanged(touches, moved):
+            self._counts.skipped.unchanged_frames += 1
         else:
-            self._felt, self._is_fresh = felt, True
+            self._touches, self._is_fresh = touches, True
             if is_paused:
                 self._frame = self.silence()
             else:
-                gained = self._gains_of_hands(felt)
+                gained = self._gains_of_hands(touches)
                 self._frame = HapticFrame(gained.full, self.hands, self._sources.ids)
         self.keeper.order()
         self._n_updates += 1
         return self._frame, gained
 
     @property
-    def felt(self) -> Felt:
+    def touches(self) -> TouchesByHand:
         """The touches of the last frame, of objects that are still there."""
         objects = self._state.objects
-        return {hand: [one for one in touches if one.object_id in objects] for hand, touches in self._felt.items()}
+        return {hand: [one for one in each if one.object_id in objects] for hand, each in self._touches.items()}
 
     @property
     def field(self) -> object:
@@ -129,18 +149,21 @@ class HandFrames:
         self._catch_up()
         return self.keeper.wait(end)
 
-    def explain(self, hand: str, *, is_paused: bool) -> Explanation:
-        """Explain each source that a hand felt at the last frame (gain and path), or why the hand felt none."""
+    def last(self, hand: str) -> LastFrame:
+        """The last frame of a hand, and the field in use, for a report."""
         self._catch_up()
-        touches = self.felt.get(hand, [])
-        levels = self._levels_at(hand)
-        gains = self._touch_gains(self.keeper.for_points(self._sources.ids, self._fields.reach, len(touches)), Counts())
-        peaks = self._known_audibility().peaks[:, 0]
-        model, field = self._config.propagation, self.keeper.field
-        explainer = Explainer(self._state, self._sources, model, field, gains, levels, peaks)
-        keeper = self.keeper
-        return explainer.explain(
-            hand, touches, self._frame, is_current=keeper.is_current, failure=keeper.failure, is_paused=is_paused
+        keeper, touches = self.keeper, self.touches.get(hand, [])
+        at_touches = keeper.for_points(self._sources.ids, self._fields.reach, len(touches))
+        return LastFrame(
+            hand,
+            touches,
+            self._frame,
+            keeper.field,
+            self._touch_gains(at_touches, Counts()),
+            self._levels_at(hand),
+            self._known_audibility().peaks[:, 0],
+            keeper.is_current,
+            keeper.failure,
         )
 
     def would_feel(self, touches: Sequence[Touch]) -> NDArray[np.float64]:
@@ -164,7 +187,7 @@ class HandFrames:
             updates=self._n_updates,
             gains_capped=self._counts.gains_capped,
             bodiless=self._state.bodiless,
-            skipped=self._counts.skipped(rows_not_mixed),
+            skipped=replace(self._counts.skipped, rows_not_mixed=rows_not_mixed),
         )
 
     def _catch_up(self) -> None:
@@ -177,23 +200,23 @@ class HandFrames:
         """Drop caches that depend on the sources and their states."""
         self._audibility = self._loudness = self._method = None
 
-    def _is_unchanged(self, felt: Felt, moved: Collection[str]) -> bool:
-        if not (self._is_fresh and self._config.skip.unchanged_frames and felt == self._felt):
+    def _is_unchanged(self, touches: TouchesByHand, moved: Collection[str]) -> bool:
+        if not (self._is_fresh and self._config.skip.unchanged_frames and touches == self._touches):
             return False
         # An outdated field is evaluated at the object's former place, so a moved object needs another query.
-        return not moved or not any(touch.object_id in moved for touches in felt.values() for touch in touches)
+        return not moved or not any(touch.object_id in moved for each in touches.values() for touch in each)
 
-    def _gains_of_hands(self, felt: Felt) -> HandGains:
-        if not felt:
+    def _gains_of_hands(self, touches: TouchesByHand) -> HandGains:
+        if not touches:
             silence = self._nothing()
             if self._config.skip.idle_hands:
-                self._counts.idle_hands += len(self.hands)
+                self._counts.skipped.idle_hands += len(self.hands)
             return HandGains(lambda: silence, silence)
         self._known_levels()
         field = self.keeper.for_touches(self._sources.ids, self._fields.reach)
         if self._method is None or self._method[0] is not field:
             self._method = (field, self._new_method(field))
-        gained = self._method[1].of_hands(self.hands, felt)
+        gained = self._method[1].of_hands(self.hands, touches)
         return gained if self._personal is None else self._personal.applied(gained)
 
     def _new_method(self, field: LiveField) -> GainMethod:
@@ -205,16 +228,22 @@ class HandFrames:
         wants_near = skip.below_threshold and skip.idle_hands and not gains.may_be_capped
         cutoff = self._cutoff_of(field) if wants_near else None
         if cutoff is None:
-            return AllGains(gains, loudness, skip, counts)
+            return AllGains(gains, loudness, skip, counts.skipped)
         assert isinstance(field, PathCostField)
         return PrunedGains(
-            gains, field, cutoff, loudness, counts, skips_silent_bands=skip.silent_bands, graph=self._state.graph
+            gains,
+            field,
+            cutoff,
+            loudness,
+            counts.skipped,
+            skips_silent_bands=skip.silent_bands,
+            graph=self._state.graph,
         )
 
     def _known_audibility(self) -> Audibility:
         if self._audibility is None:
             peaks = self._peaks(self._sources.active_rows())
-            self._audibility = Audibility(peaks, self._config.skip, self._counts)
+            self._audibility = Audibility(peaks, self._config.skip, self._counts.skipped)
             self._cutoff = None
         return self._audibility
 

@@ -10,10 +10,10 @@ from collections.abc import Iterable
 from concurrent.futures import Future, wait
 from weakref import WeakKeyDictionary
 
+from scene2hap.common.deadline import Deadline
+from scene2hap.common.worker_threads import WorkerPool
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.scene.shapes import TriMesh
-from scene2hap.session.deadline import Deadline
-from scene2hap.session.worker_threads import WorkerPool
 
 N_OF_BOX = 12
 """Triangles of a box. Contacts of boxes need triangles only while one is tilted or sinks into another. A level may hold

@@ -16,15 +16,15 @@ import trimesh
 
 from garbage import only_new_garbage
 from scene2hap import Box, HapticSession, Pose, SceneObject, SceneSnapshot, TriMesh, bake, bake_object
+from scene2hap.common import worker_threads
+from scene2hap.common.deadline import Deadline
+from scene2hap.common.worker_threads import start_worker
 from scene2hap.contact.geometry.triangle_tree import TriangleTree
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.scene import objects
 from scene2hap.scene.objects import Contact
-from scene2hap.session import worker_threads
-from scene2hap.session.deadline import Deadline
-from scene2hap.session.prepared_shapes import PreparedShapes
-from scene2hap.session.worker_threads import start_worker
+from scene2hap.session.present_scene.prepared_shapes import PreparedShapes
 
 
 @pytest.fixture(autouse=True)

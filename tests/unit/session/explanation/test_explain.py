@@ -14,7 +14,7 @@ from scene2hap.contact.junction import Junction
 from scene2hap.errors import SessionError
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.paths.live_law import LivePaths
-from scene2hap.session.explanation import PathStep
+from scene2hap.session.explanation.report import PathStep
 from scenes import RATE, box, haptics, scene, table_with_two_phones, tone_loop
 
 

@@ -25,7 +25,7 @@ from scene2hap.compiled import compiled
 from scene2hap.propagation.live import CostsByHand, PathCostField
 from scene2hap.propagation.protocol import Excitation, checked_gains
 from scene2hap.session.config import SkipConfig
-from scene2hap.session.stats import Counts
+from scene2hap.session.stats import SkipCounts
 
 BELOW_THRESHOLD_DB = 10.0
 """Margin below the threshold of touch of the sum of all sources that are left out of a hand's mix."""
@@ -44,7 +44,7 @@ class Audibility:
     Parameters: peaks : (n_sources, 2, n_bands), see `prepared_loops.peaks_of`; skip : the switches of the pruning.
     """
 
-    def __init__(self, peaks: NDArray[np.float32], skip: SkipConfig, counts: Counts) -> None:
+    def __init__(self, peaks: NDArray[np.float32], skip: SkipConfig, counts: SkipCounts) -> None:
         self.peaks = peaks
         self._skip, self._counts = skip, counts
         self._felt = peaks[:, 0, :, None].copy()

@@ -8,6 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle.override import USER
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.propagation.plate import Plate, RigidBody
@@ -17,7 +18,6 @@ from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import DominantSurface
 from scene2hap.scene.surface.outline import Outline
-from scene2hap.session.mix.sources import LoopRow
 
 UNKNOWN_MASS_KG = 1.0
 """Mass of a source without known mass and material."""
@@ -175,18 +175,13 @@ def rigid_body_of(item: SceneObject, haptics: ObjectHaptics | None) -> RigidBody
 
 
 def excitations_of(
-    rows: Iterable[LoopRow], bodies: Mapping[str, Body], haptics: Mapping[str, ObjectHaptics]
+    loops: Iterable[tuple[str, HapticLoop]], bodies: Mapping[str, Body], haptics: Mapping[str, ObjectHaptics]
 ) -> tuple[Excitation, ...]:
-    """One excitation per row, in the order of the rows."""
+    """One excitation per loop, each given with the id of its source, in their order."""
     return tuple(
         [
-            _excitation(
-                row.source_id,
-                row.loop.frequency_raw_hz,
-                row.loop.frequency_tactile_hz,
-                _mass_kg(bodies.get(row.source_id), haptics.get(row.source_id)),
-            )
-            for row in rows
+            _excitation(x, loop.frequency_raw_hz, loop.frequency_tactile_hz, _mass_kg(bodies.get(x), haptics.get(x)))
+            for x, loop in loops
         ]
     )
 

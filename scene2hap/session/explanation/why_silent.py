@@ -9,7 +9,7 @@ import numpy as np
 from scene2hap.common.counted import first_of
 from scene2hap.propagation.protocol import follows_poses
 from scene2hap.session.mix.sources import Sources
-from scene2hap.session.scene_state import SceneState
+from scene2hap.session.present_scene.scene_state import SceneState
 
 MOST_NAMED = 5
 """Most silent sources that a sentence names."""

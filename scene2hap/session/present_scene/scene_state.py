@@ -17,8 +17,16 @@ from scene2hap.scene.geometry import Vector
 from scene2hap.scene.objects import VERTICAL, Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.session.network import BoxCentres, Corners, PlatePoses, body_of, own_half_m, own_middle_m, rigid_body_of
-from scene2hap.session.reach import Reach, reach_over
+from scene2hap.session.present_scene.network import (
+    BoxCentres,
+    Corners,
+    PlatePoses,
+    body_of,
+    own_half_m,
+    own_middle_m,
+    rigid_body_of,
+)
+from scene2hap.session.present_scene.reach import Reach, reach_over
 from scene2hap.session.unknown_names import RemovedIds
 
 Thing = TypeVar("Thing")

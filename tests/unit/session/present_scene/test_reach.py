@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from scene2hap.contact.graph import ContactChange
-from scene2hap.session.reach import Reach, reach_over
+from scene2hap.session.present_scene.reach import Reach, reach_over
 
 NAMES = [f"x{i:02d}" for i in range(24)]
 SOURCES = ("x00", "x07", "x13", "elsewhere")

@@ -10,7 +10,7 @@ and the share of the power through each contact.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,60 +19,43 @@ from scene2hap.propagation.exponential_plate import ExponentialPlate, PathCosts
 from scene2hap.propagation.live import PathCostField
 from scene2hap.propagation.paths.traced_paths import Leg, PathsToPoint, Point
 from scene2hap.propagation.protocol import Carrier, CarryingField
-from scene2hap.session.audibility import NOWHERE
-from scene2hap.session.explanation import Explanation, FeltSource, PathStep, decibels
-from scene2hap.session.frame import HapticFrame, Touch
-from scene2hap.session.hand_gains import TouchGains
+from scene2hap.session.explanation.report import Explanation, FeltSource, PathStep, decibels
+from scene2hap.session.explanation.why_silent import WhySilent
+from scene2hap.session.frame import Touch
+from scene2hap.session.gains.audibility import NOWHERE
+from scene2hap.session.gains.hand_frames import LastFrame
 from scene2hap.session.mix.sources import Sources
-from scene2hap.session.scene_state import SceneState
-from scene2hap.session.why_silent import WhySilent
+from scene2hap.session.present_scene.scene_state import SceneState
 
 
 class Explainer:
-    """Explains the gains of one moment.
+    """Explains the gains of a hand at the last frame.
 
-    Parameters: field : the field in use, which `gains` evaluates; levels : of each source at the hand, by band
-    (n_bands,) [-]; peaks : of each source in each band, in thresholds of touch (n_sources, n_bands). A gain in a band
-    in which the source has no vibration is not felt, however high.
-    The costs of the paths are the law's own, so its field gives the gains along a path without another search.
+    A gain in a band in which the source has no vibration is not felt, however high. The costs of the paths are the
+    law's own, so its field gives the gains along a path without another search.
     """
 
-    def __init__(
-        self,
-        state: SceneState,
-        sources: Sources,
-        model: object,
-        field: object,
-        gains: TouchGains,
-        levels: Mapping[str, NDArray[np.float64]],
-        peaks: NDArray[np.float32],
-    ) -> None:
-        self._state, self._sources, self._model, self._gains, self._levels = state, sources, model, gains, levels
+    def __init__(self, state: SceneState, sources: Sources, model: object, last: LastFrame) -> None:
+        self._state, self._sources, self._model, self._last = state, sources, model, last
         self._why = WhySilent(state, sources, model)
-        self._peaks = peaks.astype(np.float64)
+        self._peaks = last.peaks.astype(np.float64)
         self._column = {source_id: column for column, source_id in enumerate(sources.ids)}
-        self._carrying = field if isinstance(field, CarryingField) else None
+        self._carrying = last.field if isinstance(last.field, CarryingField) else None
+        field = last.field
         self._law = field if isinstance(field, PathCostField) and isinstance(model, ExponentialPlate) else None
         self._paths: dict[tuple[str, Point], PathsToPoint] = {}
 
-    def explain(
-        self,
-        hand: str,
-        touches: Sequence[Touch],
-        frame: HapticFrame,
-        *,
-        is_current: bool,
-        failure: str,
-        is_paused: bool,
-    ) -> Explanation:
-        """Explain the gains of a hand in a frame with these touches. failure : see `Explanation`."""
+    def explain(self, *, is_paused: bool) -> Explanation:
+        """Explain the gains, or why there are none."""
+        hand, touches, frame, failure = self._last.hand, self._last.touches, self._last.frame, self._last.failure
+        is_current = self._last.is_current
         felt = []
         if touches and hand in frame.hands:
             gains = zip(frame.sources, frame.gains[frame.hands.index(hand)], strict=True)
             bands = {x: self._most_felt(x, given) for x, given in gains if given.any() and x in self._column}
             # No path is searched to the other sources, which are most sources of a large scene.
             limits = [math.inf if source_id in bands else NOWHERE for source_id in self._column]
-            at_touches = self._gains.of([[touch] for touch in touches], limits)
+            at_touches = self._last.gains.of([[touch] for touch in touches], limits)
             for source_id, band in bands.items():
                 each = at_touches[:, self._column[source_id]]
                 loudest = int(each[:, band].argmax())
@@ -102,12 +85,12 @@ class Explainer:
         """Return the amplitude over all bands re that on the source itself [-]."""
         peaks = self._peaks[self._column[source_id]]
         whole = float(np.linalg.norm(peaks))
-        return float(np.linalg.norm(peaks * gains * self._levels[source_id])) / whole if whole > 0.0 else 0.0
+        return float(np.linalg.norm(peaks * gains * self._last.levels[source_id])) / whole if whole > 0.0 else 0.0
 
     def _felt(self, source_id: str, band: int, touch: Touch, gains: NDArray[np.float64]) -> FeltSource:
         """Return the report of a source at the touch where its gains (n_bands,) are highest."""
         on = touch.object_id
-        gain_db, level_db = decibels(float(gains[band])), decibels(float(self._levels[source_id][band]))
+        gain_db, level_db = decibels(float(gains[band])), decibels(float(self._last.levels[source_id][band]))
         steps: tuple[PathStep, ...] = ()
         carriers: tuple[Carrier, ...] = ()
         if self._carrying is not None and on != source_id:
@@ -122,13 +105,13 @@ class Explainer:
 
     def _gains_along(self, legs: Sequence[Leg], source_id: str, band: int) -> list[float]:
         """Return the gain of a source at the end of each leg."""
-        column = self._column[source_id]
+        column, here = self._column[source_id], self._last.gains
         if not legs:
             return []
         if self._law is not None:
-            gains = self._gains.capped(self._gains.at(self._law, [[leg.cost] for leg in legs], [column]))[:, 0]
+            gains = here.capped(here.at(self._law, [[leg.cost] for leg in legs], [column]))[:, 0]
         else:
-            gains = self._gains.of([[Touch("", leg.object_id, leg.leave_m)] for leg in legs])[:, column]
+            gains = here.of([[Touch("", leg.object_id, leg.leave_m)] for leg in legs])[:, column]
         along: list[float] = gains[:, band].tolist()
         return along
 

@@ -9,12 +9,12 @@ import pytest
 from scene2hap import Bands, ExponentialPlate, HapticFrame, HapticSession, Pose, Touch
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.devices.protocol import Fill, SinkFormat, SinkStats
-from scene2hap.session.audibility import SILENT, Audibility, CutoffCost, sifted, silence, within
 from scene2hap.session.config import SkipConfig
+from scene2hap.session.gains.audibility import SILENT, Audibility, CutoffCost, sifted, silence, within
 from scene2hap.session.mix.prepared_loops import peaks_of
 from scene2hap.session.mix.sources import Sources
-from scene2hap.session.network import body_of, excitations_of
-from scene2hap.session.stats import Counts
+from scene2hap.session.present_scene.network import body_of, excitations_of
+from scene2hap.session.stats import SkipCounts
 from scenes import RATE, table_with_two_phones
 
 ALL_BANDS = [Bands.dominant(), Bands.third_octaves(10, 1000)]
@@ -28,10 +28,10 @@ def ears(bands: Bands, **settings: Any) -> tuple[Any, Audibility, CutoffCost]:
     for name, loops in bundle.loops.items():
         sources.add(name, loops, None)
     bodies = {name: body for name, known in bundle.objects.items() if (body := body_of(known)) is not None}
-    excitations = excitations_of(sources.active_rows(), bodies, {})
+    excitations = excitations_of([(row.source_id, row.loop) for row in sources.active_rows()], bodies, {})
     field = ExponentialPlate(**settings).live(ContactGraph(snapshot), bodies, excitations, bands)
     peaks = np.array([peaks_of(row.loop.tactile, bands) for row in sources.active_rows()], dtype=np.float32)
-    audibility = Audibility(peaks, SkipConfig(), Counts())
+    audibility = Audibility(peaks, SkipConfig(), SkipCounts())
     return field, audibility, CutoffCost(field, audibility, excitations)
 
 
@@ -69,7 +69,7 @@ def test_copies_have_the_cut_off_distance_of_their_original(bands: Bands) -> Non
     for n, original in enumerate(order):
         sources.add(f"copy_{n}", bundle.loops[originals[original]], None)
     rows = sources.active_rows()
-    excitations = excitations_of(rows, {}, {})
+    excitations = excitations_of([(row.source_id, row.loop) for row in rows], {}, {})
     field = ExponentialPlate().live(ContactGraph(snapshot), {}, excitations, bands)
     peaks = np.array([peaks_of(row.loop.tactile, bands) for row in rows], dtype=np.float32)
     levels = np.linspace(0.05, 1.0, len(order))
@@ -77,11 +77,11 @@ def test_copies_have_the_cut_off_distance_of_their_original(bands: Bands) -> Non
     def edges(columns: list[int]) -> list[float]:
         some = [excitations[i] for i in columns]
         field = ExponentialPlate().live(ContactGraph(snapshot), {}, some, bands)
-        audibility = Audibility(peaks[columns], SkipConfig(), Counts())
+        audibility = Audibility(peaks[columns], SkipConfig(), SkipCounts())
         audibility.least_felt = np.float32(10 ** (-10 / 20) / len(order))
         return CutoffCost(field, audibility, some).felt(levels[columns])
 
-    together = CutoffCost(field, Audibility(peaks, SkipConfig(), Counts()), excitations).felt(levels)
+    together = CutoffCost(field, Audibility(peaks, SkipConfig(), SkipCounts()), excitations).felt(levels)
     assert together == [edges([i])[0] for i in range(len(order))]
     assert len(set(together)) > 2
 

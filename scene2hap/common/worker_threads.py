@@ -12,7 +12,7 @@ from threading import Event, Thread
 from typing import Any, TypeVar
 from weakref import WeakKeyDictionary, finalize
 
-from scene2hap.session.deadline import Deadline
+from scene2hap.common.deadline import Deadline
 
 LAST_S = 10.0
 """Longest time [s] for which Python waits at its end for all threads together; a thread ends within the step of a

@@ -13,7 +13,7 @@ from weakref import ref
 
 import pytest
 
-from scene2hap.session.worker_threads import WorkerPool
+from scene2hap.common.worker_threads import WorkerPool
 
 SUPPORT = str(Path(__file__).parents[2] / "support")
 
@@ -66,7 +66,7 @@ SLOW = """
 import sys, time
 sys.path.insert(0, {support!r})
 from scene2hap import HapticSession, Touch
-from scene2hap.session import worker_threads
+from scene2hap.common import worker_threads
 from scene2hap.session.mix import prepared_loops
 from scenes import table_with_two_phones, tone_loop
 

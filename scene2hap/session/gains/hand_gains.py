@@ -20,11 +20,11 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.live import CostsByHand, LiveField, PathCostField, TouchedPoint
 from scene2hap.propagation.protocol import checked_gains
-from scene2hap.session.audibility import SILENT, Audibility, CutoffCost, within
 from scene2hap.session.config import MAX_GAIN_DB, SkipConfig
-from scene2hap.session.frame import Felt, Gains, Touch
-from scene2hap.session.reach import Reach
-from scene2hap.session.stats import Counts
+from scene2hap.session.frame import Gains, Touch, TouchesByHand
+from scene2hap.session.gains.audibility import SILENT, Audibility, CutoffCost, within
+from scene2hap.session.present_scene.reach import Reach
+from scene2hap.session.stats import Counts, SkipCounts
 
 HandQuery = tuple[list[TouchedPoint], frozenset[int]]
 """The touched points of one hand at which a field is evaluated, and the columns of the sources that reach them."""
@@ -137,7 +137,7 @@ class TouchGains:
                 points.append((touch.object_id, touch.point_m))
             if more is not among:
                 among = among | more if among else more
-        self._counts.unreachable_touches += len(touches) - len(points)
+        self._counts.skipped.unreachable_touches += len(touches) - len(points)
         return points, among
 
 
@@ -183,29 +183,29 @@ class Loudness:
 class GainMethod(Protocol):
     """Computes the gains of all hands from their touches."""
 
-    def of_hands(self, hands: tuple[str, ...], felt: Felt) -> HandGains:
-        """Gains of these hands; `felt` has the touches of those that touch something."""
+    def of_hands(self, hands: tuple[str, ...], touches: TouchesByHand) -> HandGains:
+        """Gains of these hands; `touches` has those that touch something."""
         ...
 
 
 class AllGains:
     """Query a field for all sources."""
 
-    def __init__(self, gains: TouchGains, loudness: Loudness, skip: SkipConfig, counts: Counts) -> None:
+    def __init__(self, gains: TouchGains, loudness: Loudness, skip: SkipConfig, counts: SkipCounts) -> None:
         self._gains, self._loudness, self._skip, self._counts = gains, loudness, skip, counts
 
-    def of_hands(self, hands: tuple[str, ...], felt: Felt) -> HandGains:
+    def of_hands(self, hands: tuple[str, ...], touches: TouchesByHand) -> HandGains:
         """See `GainMethod`."""
-        given = self._loudness.applied(self._gains.of(list(felt.values())))
+        given = self._loudness.applied(self._gains.of(list(touches.values())))
         worth = self._loudness.audibility.worth_mixing
         if self._skip.idle_hands:
-            self._counts.idle_hands += len(hands) - len(felt)
+            self._counts.idle_hands += len(hands) - len(touches)
             mixed, columns = worth(given)
-            mixed = _with_idle_hands(mixed, hands, felt)
+            mixed = _with_idle_hands(mixed, hands, touches)
         else:
-            mixed, columns = worth(_with_idle_hands(given, hands, felt))
+            mixed, columns = worth(_with_idle_hands(given, hands, touches))
         columns_or_all = columns if self._skip.silent_bands else None
-        return HandGains(lambda: _reported(given, hands, felt), mixed, columns_or_all)
+        return HandGains(lambda: _reported(given, hands, touches), mixed, columns_or_all)
 
 
 class PrunedGains:
@@ -217,7 +217,7 @@ class PrunedGains:
         field: PathCostField,
         cutoff: CutoffCost,
         loudness: Loudness,
-        counts: Counts,
+        counts: SkipCounts,
         *,
         skips_silent_bands: bool,
         graph: ContactGraph,
@@ -228,15 +228,15 @@ class PrunedGains:
         self._on = frozenset(np.flatnonzero(levels).tolist())
         self._skips_silent_bands, self._graph = skips_silent_bands, graph
 
-    def of_hands(self, hands: tuple[str, ...], felt: Felt) -> HandGains:
+    def of_hands(self, hands: tuple[str, ...], touches: TouchesByHand) -> HandGains:
         """See `GainMethod`."""
         gains, cutoff, on = self._gains, self._cutoff, self._on
-        touches = list(felt.values())
-        queries = [gains.query(touched) for touched in touches]
-        costs = gains.path_costs(self._field, touches, queries, cutoff)
+        of_each = list(touches.values())
+        queries = [gains.query(touched) for touched in of_each]
+        costs = gains.path_costs(self._field, of_each, queries, cutoff)
         columns, each, n_beyond = within(costs, cutoff, [among & on for _, among in queries])
         self._counts.below_threshold += n_beyond
-        self._counts.idle_hands += len(hands) - len(felt)
+        self._counts.idle_hands += len(hands) - len(touches)
         mixed = self._loudness.applied(gains.at(self._field, each, columns), columns)
         if self._skips_silent_bands:
             self._loudness.audibility.silence(mixed, columns)
@@ -245,13 +245,13 @@ class PrunedGains:
 
         def full() -> Gains:
             if self._graph.version == version:
-                everything = gains.path_costs(self._field, touches, queries, self._arrives)
+                everything = gains.path_costs(self._field, of_each, queries, self._arrives)
             else:
                 # The contacts of that frame are gone, so only the costs that were computed then are valid.
                 everything = _cut_off(costs, cutoff)
-            return _reported(self._loudness.applied(gains.at(self._field, everything)), hands, felt)
+            return _reported(self._loudness.applied(gains.at(self._field, everything)), hands, touches)
 
-        return HandGains(full, _with_idle_hands(mixed, hands, felt), columns)
+        return HandGains(full, _with_idle_hands(mixed, hands, touches), columns)
 
 
 def _cut_off(costs: CostsByHand, limits: Sequence[float]) -> CostsByHand:
@@ -259,15 +259,15 @@ def _cut_off(costs: CostsByHand, limits: Sequence[float]) -> CostsByHand:
     return [[x if x <= limit else math.inf for x, limit in zip(row, limits, strict=True)] for row in costs]
 
 
-def _reported(given: Gains, hands: tuple[str, ...], felt: Felt) -> Gains:
+def _reported(given: Gains, hands: tuple[str, ...], touches: TouchesByHand) -> Gains:
     """Gains as `HapticFrame` reports them: 0 below -140 dB, whatever the model. A copy."""
-    return _with_idle_hands(np.where(given < SILENT, np.float32(0.0), given), hands, felt)
+    return _with_idle_hands(np.where(given < SILENT, np.float32(0.0), given), hands, touches)
 
 
-def _with_idle_hands(given: Gains, hands: tuple[str, ...], felt: Felt) -> Gains:
+def _with_idle_hands(given: Gains, hands: tuple[str, ...], touches: TouchesByHand) -> Gains:
     """Gains of all hands, from those of the hands that touch something; 0 for the others."""
-    if len(felt) == len(hands):
+    if len(touches) == len(hands):
         return given
     every = np.zeros((len(hands), *given.shape[1:]), dtype=np.float32)
-    every[[hands.index(hand) for hand in felt]] = given
+    every[[hands.index(hand) for hand in touches]] = given
     return every

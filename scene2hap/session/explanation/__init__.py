@@ -1,0 +1,1 @@
+"""The report of what a hand feels: paths of the sources, and causes of silence."""

@@ -1,0 +1,1 @@
+"""Gains of every hand from its touches, without sources too weak to be felt."""

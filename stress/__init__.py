@@ -1,0 +1,1 @@
+"""Campaigns of random and hostile input; docs/campaigns.md lists the commands."""
