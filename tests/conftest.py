@@ -91,3 +91,14 @@ def kitchen_bundle(tmp_path_factory: pytest.TempPathFactory) -> Path:
     from scene2hap.demo import kitchen_path
 
     return bake(load_scene(kitchen_path())).save(tmp_path_factory.mktemp("baked") / "kitchen.bundle")
+
+
+@pytest.fixture(scope="module")
+def short_tones() -> Iterator[None]:
+    """Let the synthesizer give short tones, in this process: a bake takes a fifth of the time."""
+    from scene2hap.audio.sources.synth import Synthesizer
+    from short_tones import find
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Synthesizer, "find", find)
+        yield

@@ -19,6 +19,8 @@ from scene2hap.cli import main
 from scene2hap.errors import BackendUnavailable, BudgetExceeded, CallError, ConfigError
 from scene2hap.llm.batch import folder, service
 
+pytestmark = pytest.mark.usefixtures("short_tones")
+
 
 @pytest.fixture(autouse=True)
 def plain(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -104,7 +104,7 @@ def test_recorded_runs_refuses_empty_or_multichannel_samples(x: Any) -> None:
         recorded_runs(x, RATE_HZ)
 
 
-@settings(max_examples=6)
+@settings(max_examples=3)
 @given(st.floats(0.5, 4.0), st.sampled_from(["motor", "linear"]), st.floats(1e-3, 1e3), st.integers(0, 99))
 def test_reversed_start_is_a_stop_at_any_loudness(start_s: float, rise: str, gain: float, seed: int) -> None:
     x = machine(start_s=round(start_s, 1), rise=rise, steady_s=3.0, seed=seed).samples

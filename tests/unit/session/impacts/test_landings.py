@@ -414,7 +414,7 @@ def slides(rng: np.random.Generator) -> Path:
             yield float(at[0]), RESTS_M, float(at[1])
 
 
-@pytest.mark.parametrize(("kind", "n_paths"), [(rests, 1), (jitters, 500), (slides, 500)])
+@pytest.mark.parametrize(("kind", "n_paths"), [(rests, 1), (jitters, 150), (slides, 150)])
 def test_resting_sliding_or_jittering_object_does_not_land(
     kind: Callable[[np.random.Generator], Path], n_paths: int
 ) -> None:
