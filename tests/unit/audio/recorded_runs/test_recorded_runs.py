@@ -28,7 +28,7 @@ MACHINES: dict[str, dict[str, Any]] = {
 }
 
 
-@pytest.mark.parametrize("seed", [0, 1, 2])
+@pytest.mark.parametrize("seed", [0, 1])
 @pytest.mark.parametrize("name", MACHINES)
 def test_start_and_stop_of_a_synthetic_machine_are_found(name: str, seed: int) -> None:
     told = MACHINES[name]
