@@ -48,7 +48,6 @@ def _of_oak(bundle: HapticBundle) -> HapticBundle:
 
 CASES: dict[str, tuple[Path, float | None, Callable[[HapticBundle], HapticBundle], int]] = {
     "demo_kitchen": (kitchen_path(), None, lambda bundle: bundle, 15),
-    "aws_house_living": (SCENES / "aws_house_living" / "aws_house_living.glb", None, lambda bundle: bundle, 2),
     "composed_kitchen_kaykit": (
         SCENES / "composed_kitchen_kaykit" / "composed_kitchen_kaykit.glb",
         None,
