@@ -27,8 +27,8 @@ for variable, kept in {"MALLOC_TRIM_THRESHOLD_": 1 << 27, "MALLOC_MMAP_THRESHOLD
 MEMORY = Path("/dev/shm")
 LEAST_MEMORY_BYTES = 4 << 30
 
-# The same examples in each run make runs comparable; --hypothesis-profile=search draws others.
-settings.register_profile("same", derandomize=True, deadline=None)
+# The same examples in each run make runs comparable; --hypothesis-profile=search draws others, and more of them.
+settings.register_profile("same", derandomize=True, deadline=None, max_examples=40)
 settings.register_profile("search", deadline=None, print_blob=True)
 settings.load_profile("same")
 
