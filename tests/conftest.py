@@ -84,6 +84,13 @@ def _no_network() -> Iterator[None]:
         yield
 
 
+@pytest.fixture
+def no_proxies(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let requests go to servers of this machine directly."""
+    for name in ("HTTP_PROXY", "HTTPS_PROXY", "ALL_PROXY", "http_proxy", "https_proxy", "all_proxy"):
+        monkeypatch.delenv(name, raising=False)
+
+
 @pytest.fixture(scope="session")
 def kitchen_bundle(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of the demo kitchen's bundle, baked once. Tests that edit a bundle copy it."""

@@ -59,12 +59,6 @@ def alone(scenes: list[Path], tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.fixture
-def plain(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("HTTP_PROXY", "HTTPS_PROXY", "ALL_PROXY", "http_proxy", "https_proxy", "all_proxy"):
-        monkeypatch.delenv(name, raising=False)
-
-
 def test_bundles_equal_those_of_bake(scenes: list[Path], alone: Path, tmp_path: Path) -> None:
     bake(load_scene(scenes[1])).save(tmp_path / f"{scenes[1].stem}.bundle")
     mine = digests(tmp_path)
@@ -149,7 +143,7 @@ def test_error_of_the_report_names_the_errors_of_the_scenes(scenes: list[Path], 
         bake_many([tmp_path / "absent.glb", scenes[0]], tmp_path / "out")
 
 
-def test_a_plan_says_what_a_run_will_do_and_asks_nothing(scenes: list[Path], plain: None, tmp_path: Path) -> None:
+def test_a_plan_says_what_a_run_will_do_and_asks_nothing(scenes: list[Path], no_proxies: None, tmp_path: Path) -> None:
     twins = [scenes[0], Path(shutil.copy(scenes[0], tmp_path / "twin.json"))]
     with serving(by=answered) as server:
         config = {
@@ -212,7 +206,7 @@ def test_scenes_of_another_type_are_refused(given: Any, tmp_path: Path) -> None:
             make(given, tmp_path)
 
 
-def test_a_model_reads_the_name_that_a_person_gave(plain: None, tmp_path: Path) -> None:
+def test_a_model_reads_the_name_that_a_person_gave(no_proxies: None, tmp_path: Path) -> None:
     (scene,) = write_scenes(tmp_path / "scenes", 1)
     target = tmp_path / "out" / "room_0.bundle"
     bake_many([scene], tmp_path / "out")
@@ -369,7 +363,7 @@ def test_a_bundle_whose_record_was_lost_is_not_taken_for_an_edited_one(scenes: l
 
 
 def test_reading_a_scene_hides_only_the_warnings_that_workers_repeat(
-    scenes: list[Path], plain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    scenes: list[Path], no_proxies: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def reading(*arguments: Any, **more: Any) -> SceneSnapshot:
         warnings.warn("of a model", BackendWarning, stacklevel=1)

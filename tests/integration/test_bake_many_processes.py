@@ -59,7 +59,7 @@ def test_dask_makes_the_same_bundles(scenes: list[Path], alone: Path, tmp_path: 
 
 
 def test_model_is_queried_from_the_main_process_once_per_question(
-    scenes: list[Path], plain: None, tmp_path: Path
+    scenes: list[Path], no_proxies: None, tmp_path: Path
 ) -> None:
     """Scenes that share an object share its answer; a second run, with sounds made by a worker, sends no request."""
     with serving(by=answered) as server:
@@ -97,7 +97,7 @@ def radios(folder: Path, n: int) -> list[Path]:
 @pytest.mark.skipif(find_spec("embreex") is None, reason="needs the extra 'pictures'")
 @pytest.mark.parametrize(("share", "executor"), [(False, None), (True, "processes:1")])
 def test_equal_objects_of_several_scenes_share_a_request_on_demand(
-    share: bool, executor: str | None, plain: None, tmp_path: Path
+    share: bool, executor: str | None, no_proxies: None, tmp_path: Path
 ) -> None:
     """Two rooms give two requests about radios, or one if shared; this process or a worker draws the pictures."""
     with serving(by=answered) as server:

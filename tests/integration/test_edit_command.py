@@ -426,11 +426,13 @@ def test_vibrate_keeps_the_material_that_was_inferred_from_colours(tmp_path: Pat
 
 
 def test_a_name_is_inferred_by_the_model_of_the_options(
-    kitchen: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    kitchen: Callable[..., Path],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    no_proxies: None,
 ) -> None:
     """The lexicon does not know the word; the model answers that it is a fridge."""
-    for name in ("HTTP_PROXY", "HTTPS_PROXY", "ALL_PROXY", "http_proxy", "https_proxy", "all_proxy"):
-        monkeypatch.delenv(name, raising=False)
     stages: list[tuple[str, int, int]] = []
     show = contextlib.nullcontext(lambda stage, what, done, total: stages.append((stage, done, total)))
     monkeypatch.setattr(Console, "progress", lambda console: show)
