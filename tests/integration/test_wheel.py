@@ -142,6 +142,8 @@ def test_a_compiled_wheel_runs_on_its_kernels_and_has_no_debug_symbols(
     for kernel in (source / "scene2hap").rglob("_*.pyx"):
         if kernel.relative_to(source).with_suffix("").as_posix() not in FEW_KERNELS:
             kernel.unlink()
+    hook = source / "hatch_build.py"
+    hook.write_text(hook.read_text().replace("-O3", "-O0"))  # a third of the time; `.ci/run` tests the fast ones
     built = wheel(source, tmp_path / "dist", "1")
     assert "none-any" not in built.name
     with zipfile.ZipFile(built) as packed:
