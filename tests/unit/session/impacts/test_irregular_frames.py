@@ -87,14 +87,14 @@ def test_object_that_a_hand_puts_down_gently_seldom_lands_where_physics_is_slowe
     assert n_landed <= 1
 
 
-@pytest.mark.parametrize("height_m", [0.02, 0.05, 0.3, 1.0])
+@pytest.mark.parametrize("height_m", [0.02, 0.03, 0.1, 1.0])
 @pytest.mark.parametrize(
     ("frames", "least", "most"), [(x, 0.95, 1.01) for x in KINDS[:4]] + [(x, 0.8, 1.1) for x in KINDS[4:]]
 )
 def test_object_that_falls_lands_once(frames: Frames, least: float, most: float, height_m: float) -> None:
-    """If three frames saw it, and the 60 ms before a stall or of slower physics; and the mean speed of 20 falls."""
+    """If three frames saw it, and the 60 ms before a stall or of slower physics; and the mean speed of 40 falls."""
     falls_s, ratios = math.sqrt(2 * height_m / G), []
-    for seed in range(20):
+    for seed in range(40):
         rng = np.random.default_rng(seed)
         held_s = float(rng.uniform(0.1, 0.6))
         shown = frames((60, 72, 90, 120)[seed % 4], held_s + falls_s + 0.5, rng)
