@@ -27,8 +27,8 @@ for variable, kept in {"MALLOC_TRIM_THRESHOLD_": 1 << 27, "MALLOC_MMAP_THRESHOLD
 MEMORY = Path("/dev/shm")
 LEAST_MEMORY_BYTES = 4 << 30
 
-# The same examples in each run make runs comparable; --hypothesis-profile=search draws others.
-settings.register_profile("same", derandomize=True, deadline=None)
+# The same examples in each run make runs comparable; --hypothesis-profile=search draws others, and more of them.
+settings.register_profile("same", derandomize=True, deadline=None, max_examples=40)
 settings.register_profile("search", deadline=None, print_blob=True)
 settings.load_profile("same")
 
@@ -84,6 +84,13 @@ def _no_network() -> Iterator[None]:
         yield
 
 
+@pytest.fixture
+def no_proxies(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let requests go to servers of this machine directly."""
+    for name in ("HTTP_PROXY", "HTTPS_PROXY", "ALL_PROXY", "http_proxy", "https_proxy", "all_proxy"):
+        monkeypatch.delenv(name, raising=False)
+
+
 @pytest.fixture(scope="session")
 def kitchen_bundle(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of the demo kitchen's bundle, baked once. Tests that edit a bundle copy it."""
@@ -91,3 +98,14 @@ def kitchen_bundle(tmp_path_factory: pytest.TempPathFactory) -> Path:
     from scene2hap.demo import kitchen_path
 
     return bake(load_scene(kitchen_path())).save(tmp_path_factory.mktemp("baked") / "kitchen.bundle")
+
+
+@pytest.fixture(scope="module")
+def short_tones() -> Iterator[None]:
+    """Let the synthesizer give short tones, in this process: a bake takes a fifth of the time."""
+    from scene2hap.audio.sources.synth import Synthesizer
+    from short_tones import find
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Synthesizer, "find", find)
+        yield

@@ -15,16 +15,16 @@ FAMILIES = ("scene_files", "servers", "names")
 
 
 def test_a_slice_of_the_attack_table() -> None:
-    command = [sys.executable, str(ATTACK), "--families", *FAMILIES, "--cases", "9", "--seed", "1"]
+    command = [sys.executable, str(ATTACK), "--families", *FAMILIES, "--cases", "4", "--seed", "1"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=240)
     assert done.returncode == 0, done.stdout + done.stderr
     for family in FAMILIES:
-        assert f"| {family} | 9 |" in done.stdout
+        assert f"| {family} | 4 |" in done.stdout
 
 
 def test_a_slice_of_the_damaged_files() -> None:
     readers = ["glTF", "bundle", "AHAP", "WAV FLOAT", "touches JSON", "settings TOML", "answers", "batches"]
-    command = [sys.executable, str(STRESS / "hostile_files.py"), "--case", "1", "2", "--readers", *readers]
+    command = [sys.executable, str(STRESS / "hostile_files.py"), "--case", "1", "--readers", *readers]
     done = subprocess.run(command, capture_output=True, text=True, timeout=240)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert f"{2 * len(readers)} cases, 0 failed" in done.stdout
+    assert f"{len(readers)} cases, 0 failed" in done.stdout

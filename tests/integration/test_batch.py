@@ -19,11 +19,11 @@ from scene2hap.cli import main
 from scene2hap.errors import BackendUnavailable, BudgetExceeded, CallError, ConfigError
 from scene2hap.llm.batch import folder, service
 
+pytestmark = pytest.mark.usefixtures("short_tones")
+
 
 @pytest.fixture(autouse=True)
-def plain(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("HTTP_PROXY", "HTTPS_PROXY", "ALL_PROXY", "http_proxy", "https_proxy", "all_proxy"):
-        monkeypatch.delenv(name, raising=False)
+def _no_waits(no_proxies: None, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(service, "_WAITS_S", (0.0, 0.0))
 
 

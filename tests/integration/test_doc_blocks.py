@@ -28,6 +28,8 @@ import scene2hap.engines
 from scene2hap import Box, HapticBundle, HapticSession, MemorySink, Pose, SceneObject, SceneSnapshot, bake
 from small_kitchen import small_kitchen
 
+pytestmark = pytest.mark.usefixtures("short_tones")
+
 ROOT = Path(__file__).parents[2]
 RUN_BY = {
     "README.md": "integration/test_readme.py",

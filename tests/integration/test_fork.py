@@ -24,12 +24,14 @@ def in_child(work):
     assert os.wait()[1] == 0
 """
 
-SESSION = """
+SESSION = f"""
+sys.path.insert(0, {str(Path(__file__).parents[1] / "support")!r})
 from scene2hap import *
+from with_tones import with_tones
 
 objects = [SceneObject("wooden table", pose=Pose((0.0, 0.37, 0.0)), geometry=Box((1.4, 0.74, 0.8))),
            SceneObject("smartphone", pose=Pose((0.2, 0.744, 0.1)), geometry=Box((0.07, 0.008, 0.15)))]
-bundle = bake(SceneSnapshot.build(objects, name="table"))
+bundle = with_tones(SceneSnapshot.build(objects, name="table"))
 touch = Touch("left", "wooden table", (0.3, 0.74, 0.1))
 """
 

@@ -15,6 +15,8 @@ from scene2hap.audio.sources.chain import SourceWarning
 from scene2hap.errors import AudioError
 from scenes import box, scene
 
+pytestmark = pytest.mark.usefixtures("short_tones")
+
 GENERATOR = Path(__file__).parents[1] / "support" / "fake_generator.py"
 KITCHEN = scene(
     box("refrigerator", (0.6, 1.8, 0.6), (0.0, 0.9, 0.0)),

@@ -104,15 +104,16 @@ asyncio.SelectorEventLoop.add_signal_handler = lacks
 """
 
 
-@pytest.mark.parametrize("system", ["", AS_ON_WINDOWS], ids=["posix", "windows"])
-@pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(
+    ("system", "by"), [("", signal.SIGTERM), (AS_ON_WINDOWS, signal.SIGINT)], ids=["posix", "windows"]
+)
 def test_a_bridge_ends_without_an_error(system: str, by: signal.Signals) -> None:
     """Loops of Windows take no handlers of signals: Ctrl-C ended the bridge with status 130 and an error."""
     program = system + WHOLE_PROGRAM.replace('print("ready", flush=True)\n', "")
     assert interrupted("-c", program, "bridge", "--port", "0", by=by) == (0, "")
 
 
-@pytest.mark.parametrize("after_s", [0.1, 0.3, 0.6, 1.0, 2.0, 3.0])
+@pytest.mark.parametrize("after_s", [0.1, 0.6, 2.0, 3.0])
 def test_a_command_ends_quietly_whenever_it_is_interrupted(after_s: float, tmp_path: Path) -> None:
     """The command waits for an interrupt at its end."""
     scene = Path(__file__).parents[2] / "scene2hap" / "demo" / "kitchen.glb"

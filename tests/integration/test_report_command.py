@@ -12,6 +12,8 @@ from scene2hap.demo import kitchen_path
 from scripted_backend import SCENE, Scripted
 from systems import needs_long_names
 
+pytestmark = pytest.mark.usefixtures("short_tones")
+
 
 @pytest.fixture
 def bundle(tmp_path: Path) -> Path:

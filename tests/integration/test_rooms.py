@@ -51,7 +51,7 @@ def test_object_on_a_source_is_felt_and_lifted_object_is_not(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ROOMS)
-@settings(max_examples=15)
+@settings(max_examples=6)
 @given(data=st.data())
 def test_moved_scene_equals_a_scene_built_at_that_place(name: str, data: st.DataObject) -> None:
     room, scene = ROOMS[name], loaded(name)

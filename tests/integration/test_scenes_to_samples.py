@@ -13,7 +13,10 @@ from scene2hap import HapticBundle, HapticSession, SceneSnapshot, Touch, bake, l
 from scene2hap.scene.load import UnitWarning
 
 # Baking warns of rooms without sources.
-pytestmark = pytest.mark.filterwarnings("ignore:none of:scene2hap.SceneWarning")
+pytestmark = [
+    pytest.mark.filterwarnings("ignore:none of:scene2hap.SceneWarning"),
+    pytest.mark.usefixtures("short_tones"),
+]
 
 FILES = {
     "aws_house_bedroom": "aws_house_bedroom.glb",

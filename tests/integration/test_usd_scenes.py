@@ -14,6 +14,8 @@ from rooms import ROOMS, room_file
 from scene2hap import HapticBundle, HapticSession, Touch, bake, load_scene
 from usd_writing import as_usd, usd
 
+pytestmark = pytest.mark.usefixtures("short_tones")
+
 NAME = next(iter(ROOMS))
 
 

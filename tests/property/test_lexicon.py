@@ -59,7 +59,7 @@ def test_place_does_not_depend_on_the_order_of_objects(scene_name: str, names: l
     assert first == second
 
 
-@settings(max_examples=200)
+@settings(max_examples=80)
 @given(NAMES, NAMES, NAMES)
 def test_any_state_is_described_within_bounds(category: str, state: str, place: str) -> None:
     facts = {"object_category": category, "state": state, "scene_category": place}

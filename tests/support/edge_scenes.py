@@ -54,11 +54,11 @@ def unknown_source() -> Bundled:
 
 
 def equal_cubes() -> Bundled:
-    """Sixty equal cubes with different names, in rows that touch; six of them vibrate."""
-    names = [f"cube {n}" for n in range(60)]
+    """Thirty equal cubes with different names, in rows that touch; six of them vibrate."""
+    names = [f"cube {n}" for n in range(30)]
     size = (_CUBE_M,) * 3
     cubes = [box(x, size, (_CUBE_M * (n % 10), _CUBE_M * (0.5 + n // 10), 0.0)) for n, x in enumerate(names)]
-    sources = tuple(names[::10])
+    sources = tuple(names[::5])
     objects = {x: haptics("pine", size, *(["on"] if x in sources else [])) for x in names}
     return _bundled(scene(*cubes), objects, sources)
 

@@ -26,6 +26,8 @@ from scene2hap import (
     rebake,
 )
 
+pytestmark = pytest.mark.usefixtures("short_tones")
+
 TABLE = SceneObject("wooden table", pose=Pose((0.0, 0.36, 0.0)), geometry=Box((1.2, 0.72, 0.7)))
 PHONE = SceneObject("smartphone", pose=Pose((0.3, 0.724, 0.1)), geometry=Box((0.07, 0.008, 0.15)))
 SCENE = SceneSnapshot.build([TABLE, PHONE])

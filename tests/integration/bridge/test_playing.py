@@ -29,8 +29,8 @@ def poses(*ids: str, **moved: tuple[float, float, float]) -> np.ndarray:
     return np.array([[*{**REST, **moved}[key], 0, 0, 0, 1] for key in ids], np.float32)
 
 
-def test_the_game_of_the_protocol_page() -> None:
-    found = check_bridge_client([sys.executable, "-W", "error", game], n_frames=60)
+def test_the_game_of_the_protocol_page_loses_no_answer_with_frames_in_flight() -> None:
+    found = check_bridge_client([sys.executable, "-W", "error", game], n_frames=60, rate_hz=400.0)
     assert (found.n_frames, found.n_resumed) == (60, 1)
     assert found.worst < 1e-6
 
@@ -61,11 +61,6 @@ def test_a_client_that_fails_the_check_learns_why(
 def test_a_command_that_does_not_start_is_no_traceback(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["bridge", "--check", "no-such-client"]) == 1
     assert "--check is 'no-such-client', which cannot be started" in " ".join(capsys.readouterr().err.split())
-
-
-def test_no_answer_is_lost_with_frames_in_flight() -> None:
-    found = check_bridge_client([sys.executable, "-W", "error", game], n_frames=60, rate_hz=400.0)
-    assert (found.n_frames, found.n_resumed) == (60, 1)
 
 
 def test_gains_over_the_bridge_equal_a_local_session(bridge: Bridge, desk: HapticBundle) -> None:

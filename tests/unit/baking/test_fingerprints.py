@@ -26,7 +26,7 @@ from scene2hap.errors import BundleError, ConfigError
 from scenes import box, scene, tone_loop
 
 # Some scenes here have a distant table, or no sources.
-pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.SceneWarning")
+pytestmark = [pytest.mark.filterwarnings("ignore::scene2hap.SceneWarning"), pytest.mark.usefixtures("short_tones")]
 
 NAMES = ("desk_fan", "microwave_oven", "refrigerator")  # the last two hum at 100 Hz, and are moved apart
 RATE = 8000

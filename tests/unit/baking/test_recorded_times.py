@@ -19,6 +19,8 @@ from scenes import haptics, tone_loop
 from scripted_backend import SCENE
 from starting_machines import machine
 
+pytestmark = pytest.mark.usefixtures("short_tones")
+
 START, STOP = RunCurve(2.0, (0.0, 0.4, 1.0)), RunCurve(3.0, (1.0, 0.4, 0.0))
 STATE = SourceState("on", 0.5, "fan whirring", "fan whirring", start_up_s=1.0, wind_down_s=4.0, spins=True)
 

@@ -25,6 +25,8 @@ from scene2hap.errors import BundleError, UnknownObject
 from scene2hap.haptics import ActuatorProfile
 from starting_machines import machine
 
+pytestmark = pytest.mark.usefixtures("short_tones")
+
 RATE = 48000
 
 

@@ -23,6 +23,8 @@ from scene2hap.errors import BadAnswer
 from scene2hap.llm.chain.report import InferenceReport
 from scripted_backend import SCENE, Scripted
 
+pytestmark = pytest.mark.usefixtures("short_tones")
+
 
 def test_warning_of_bake_points_at_the_calling_line() -> None:
     scene = SceneSnapshot.build([SceneObject(name, geometry=Box((1, 1, 1))) for name in ("table", "chair")])

@@ -15,6 +15,8 @@ from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.report import report_document
 from scripted_backend import SCENE, Scripted
 
+pytestmark = pytest.mark.usefixtures("short_tones")
+
 ACCOUNT = {
     "calls": {"scene_analyzer": 1, "object_analyzer": 3},
     "kept": 2,

@@ -20,6 +20,8 @@ from scene2hap.report.page import assemble
 from scene2hap.report.surface_points import patches_of
 from scene2hap.scene.objects import UpAxis
 
+pytestmark = pytest.mark.usefixtures("short_tones")
+
 
 @pytest.fixture(scope="module")
 def mug() -> HapticBundle:

@@ -31,6 +31,8 @@ from scene2hap.report.document import level_bytes
 from scene2hap.report.felt_map import ALL_BANDS, ALL_SOURCES, FeltMap, felt_map
 from scenes import table_with_two_phones, tone_loop
 
+pytestmark = pytest.mark.usefixtures("short_tones")
+
 N_POINTS = 60
 MODEL = "exponential_plate"
 LEAST_FELT_DB = -20.0
@@ -46,7 +48,6 @@ def _of_oak(bundle: HapticBundle) -> HapticBundle:
 
 CASES: dict[str, tuple[Path, float | None, Callable[[HapticBundle], HapticBundle], int]] = {
     "demo_kitchen": (kitchen_path(), None, lambda bundle: bundle, 15),
-    "aws_house_living": (SCENES / "aws_house_living" / "aws_house_living.glb", None, lambda bundle: bundle, 2),
     "composed_kitchen_kaykit": (
         SCENES / "composed_kitchen_kaykit" / "composed_kitchen_kaykit.glb",
         None,
@@ -67,7 +68,7 @@ def test_the_felt_map_has_the_gains_and_paths_of_a_session(name: str, kitchen_bu
         bundle = HapticBundle.load(kitchen_bundle)
     else:
         bundle = done(bake(load_scene(needed(path), unit_m=unit_m)))
-    felt = felt_map(bundle, most_points=3000)
+    felt = felt_map(bundle, most_points=800)
     session = HapticSession(bundle)
     places = [(patch.object_id, point) for patch in felt.patches for point in patch.points_m.tolist()]
     chosen = np.random.default_rng(5).choice(len(places), N_POINTS, replace=False)
@@ -127,7 +128,7 @@ def test_paths_are_those_that_a_session_explains(kitchen_bundle: Path) -> None:
         {"kind": MODEL, "max_hops": 2, "interface_loss_db": 3.0},
         {"kind": "full_propagation"},
     ):
-        felt = felt_map(bundle, [model], most_points=1500)
+        felt = felt_map(bundle, [model], most_points=400)
         session = HapticSession(bundle, config={"propagation": model})
         assert session.wait_prepared(60)
         places = [(patch.object_id, point) for patch in felt.patches for point in patch.points_m.tolist()]

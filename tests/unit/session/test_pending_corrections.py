@@ -24,6 +24,8 @@ from scene2hap import (
     rebake,
 )
 
+pytestmark = pytest.mark.usefixtures("short_tones")
+
 
 @pytest.fixture(scope="module")
 def baked() -> HapticBundle:

@@ -263,7 +263,7 @@ def test_a_game_that_is_ended_from_outside_leaves_its_wav(end: type[BaseExceptio
     assert soundfile.info(sink.path).frames >= 10
 
 
-@pytest.mark.parametrize("end", ["", "1 / 0", "raise SystemExit", "raise KeyboardInterrupt"])
+@pytest.mark.parametrize("end", ["", "raise KeyboardInterrupt"])
 def test_a_program_that_does_not_stop_its_session_leaves_its_wav(end: str, tmp_path: Path) -> None:
     script = f"""from scenes import table_with_two_phones
 from scene2hap import HapticSession, WavSink

@@ -190,13 +190,13 @@ def test_bubbles_ring_where_their_radii_say() -> None:
 def test_kettle_has_the_same_pitch_for_any_seed() -> None:
     """With equal numbers of bubbles of all sizes, the strongest third octave varied by two octaves."""
     strongest = []
-    for seed in range(12):
+    for seed in range(8):
         f, magnitude = spectrum(bubbles(take(seed=seed), largest_hz=90.0, smallest_hz=380.0))
         edges = 90.0 * 2.0 ** (np.arange(8) / 3.0)
         power = [(magnitude[(f >= a) & (f < b)] ** 2).sum() for a, b in pairwise(edges)]
         strongest.append(int(np.argmax(power)))
     near = np.abs(np.array(strongest) - np.median(strongest)) <= 1
-    assert near.sum() >= 11
+    assert near.sum() >= 7
 
 
 def test_impacts_repeat_at_the_stated_rate() -> None:
@@ -292,7 +292,7 @@ def test_takes_of_a_machine_are_felt_at_one_frequency(noun: str) -> None:
     level_db, actuator = sensation_level_db(intensity), actuator_profile("flat")
     keywords = describe(noun, name).keywords
     felt_hz = []
-    for seed in range(10):
+    for seed in range(6):
         machine = VibrationDescription(noun, name, "", keywords, intensity, (0.3, 0.4, 0.3), seed=seed)
         clip = Synthesizer().find(machine)[0]
         component = felt_component_of(clip.samples, clip.sample_rate_hz, level_db, actuator)
@@ -409,7 +409,7 @@ def test_the_motor_of_a_sewing_machine_is_heard_between_its_stitches() -> None:
 def test_blades_on_the_shaft_of_a_motor_are_felt_at_its_speed_in_every_take() -> None:
     """Two imbalances on one shaft cancelled each other in some takes, which were felt an octave higher."""
     wanted = replace(asked("coffee grinder", "grinding", 0.6), size_m=(0.3, 0.4, 0.3))
-    for seed in range(24):
+    for seed in range(12):
         (clip,) = Synthesizer().find(replace(wanted, seed=seed))
         component = felt_component_of(
             clip.samples, clip.sample_rate_hz, sensation_level_db(0.6), actuator_profile("flat")

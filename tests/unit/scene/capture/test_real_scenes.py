@@ -25,14 +25,13 @@ pytest.importorskip("embreex", reason="needs the extra `pictures`")
 FILES: dict[str, tuple[str, float | None]] = {
     "aws_house_living": ("aws_house_living.glb", None),
     "sketchfab_kitchen": ("scene.gltf", 0.01),
-    "composed_kitchen_kaykit": ("composed_kitchen_kaykit.glb", None),
 }
 SIZE_PX = 192
 PINK = (255, 0, 190)
 _loaded: dict[str, SceneSnapshot] = {}
 
 
-OWN = ("dining_room", "shelves", "workshop")
+OWN = ("dining_room", "workshop")
 
 
 def file_of(name: str) -> Path:

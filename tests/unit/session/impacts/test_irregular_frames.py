@@ -69,7 +69,7 @@ def test_object_that_a_hand_puts_down_or_shakes_gently_does_not_land(
     motion: Callable[[np.random.Generator], tuple[Height, float]], frames: Frames
 ) -> None:
     found = []
-    for seed in range(60):
+    for seed in range(32):
         rng = np.random.default_rng(seed)
         height_m, lasts_s = motion(rng)
         if landings_of(height_m, frames((60, 72, 90, 120)[seed % 4], lasts_s, rng)):
@@ -87,7 +87,7 @@ def test_object_that_a_hand_puts_down_gently_seldom_lands_where_physics_is_slowe
     assert n_landed <= 1
 
 
-@pytest.mark.parametrize("height_m", [0.02, 0.03, 0.05, 0.1, 0.3, 1.0])
+@pytest.mark.parametrize("height_m", [0.02, 0.03, 0.1, 1.0])
 @pytest.mark.parametrize(
     ("frames", "least", "most"), [(x, 0.95, 1.01) for x in KINDS[:4]] + [(x, 0.8, 1.1) for x in KINDS[4:]]
 )
