@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from scene2hap.contact.graph import ContactChange
 from scene2hap.propagation.live import LiveField, PathCostField
-from scene2hap.session.audibility import SILENT, Audibility, CutoffCost
+from scene2hap.session.audibility import SILENT, Audibility, CutoffCost, arriving
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.explain import Explainer
@@ -156,6 +157,15 @@ class HandFrames:
         for one, touch in zip(given, touches, strict=True):
             one *= levels[touch.hand]
         return np.where(given < SILENT, 0.0, given)
+
+    def over_threshold_db(self, gains: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Levels over the threshold of touch [dB] (..., n_sources), see `HapticSession.over_threshold_db`."""
+        felt = [row.loop.felt for row in self._sources.active_rows()]
+        full_db = np.array([math.nan if one is None else one.level_db for one in felt])
+        amplitudes = arriving(gains, self._known_audibility().peaks[:, 0])
+        with np.errstate(divide="ignore"):
+            levels_db: NDArray[np.float64] = 20 * np.log10(amplitudes) + full_db
+        return levels_db
 
     def stats(self, rows_not_mixed: int) -> SessionStats:
         """Counters so far."""
