@@ -57,7 +57,7 @@ def given_poses(moved: object) -> dict[str, Pose]:
 
 def given_gains(gains: object, n_sources: int, n_bands: int) -> Floats:
     """Return gains (..., n_sources, n_bands), also those of a frame. Raises: SessionError: another shape."""
-    given = floats("gains", gains.gains if isinstance(gains, HapticFrame) else gains, "", error=SessionError)
+    given = floats("gains", gains.gains if isinstance(gains, HapticFrame) else gains, "-", error=SessionError)
     if given.shape[-2:] != (n_sources, n_bands):
         raise SessionError(
             f"gains has shape {given.shape}; its last two axes must be the {n_sources} sources and {n_bands} bands of "

@@ -480,7 +480,8 @@ class HapticSession:
         Bands count by the share of the source's vibration in them, unlike in `HapticFrame.gain`, the highest gain of
         all bands. Call it before a source, or its state, changes; a start or stop that is under way does not count.
         Parameters: gains : (..., n_sources, n_bands), of a frame (or the frame) or of `would_feel`.
-        Returns: (..., n_sources) [dB], -inf where nothing arrives, nan for a source whose loop has no known level.
+        Returns: (..., n_sources) [dB]; -inf where nothing arrives, and until the loops of an added source are prepared;
+        nan for a source whose loop has no known level.
         Raises: SessionError: gains of another shape.
         """
         return self._hand_frames.over_threshold_db(given_gains(gains, len(self.source_ids), self.config.bands.n_bands))
