@@ -108,8 +108,8 @@ class HapticBundle(BundleContents):
         locked object stay unchanged, byte for byte; a correction that would change them is rejected.
         Raises: UnknownObject; BundleError: a field out of bounds, an unknown state of the object, or a change of the
         loops of a locked object; UnknownMaterial; AudioError: a clip that cannot be read or lasts less than 0.1 s.
-        Warns: SceneWarning: a correction of vibration for an object that does not vibrate, a level that looks like a
-        percentage, or a mass that looks like grams.
+        Warns: SceneWarning: a correction of vibration for an object that does not vibrate; a number for all states
+        beside `state`; a level that looks like a percentage; or a mass that looks like grams.
         """
         self.snapshot.object(object_id)
         changes = {
@@ -150,6 +150,12 @@ class HapticBundle(BundleContents):
             warn_of(
                 f"{object_id!r} does not vibrate; {', '.join(vain)} will change nothing until it does. Write "
                 f"override({object_id!r}, vibrates=True), or `scene2hap edit BUNDLE vibrate {object_id}`."
+            )
+        everywhere = [name for name in BY_STATE if isinstance(changes[name], int | float)]
+        if state is not None and everywhere and len(self.objects[object_id].states) > 1:
+            warn_of(
+                f"state={state!r} is the state of {object_id!r} at the start; {', '.join(everywhere)} changes every "
+                f"state. For one state alone write {everywhere[0]}={{{state!r}: {changes[everywhere[0]]}}}."
             )
         if wish.gain_db is not None and gain_db is not None:
             warn_if_percent(wish.gain_db)

@@ -19,7 +19,7 @@ from scene2hap.errors import BundleError, SceneError, SessionError
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose, how_to_write
-from scene2hap.session.frame import Touch, given_touches
+from scene2hap.session.frame import HapticFrame, Touch, given_touches
 from scene2hap.session.impacts.felt_impacts import KNOCK_M_S, Strike
 from scene2hap.session.present_scene.scene_state import SceneState
 from scene2hap.session.unknown_names import require_hand
@@ -53,6 +53,17 @@ def given_poses(moved: object) -> dict[str, Pose]:
         f"moved is {checks.described(moved)}; it must be a mapping of object ids to poses, as {{'mug': Pose(...)}}. "
         "Touches go by name: update(touches=[Touch(hand, object_id, point_m)])."
     )
+
+
+def given_gains(gains: object, n_sources: int, n_bands: int) -> Floats:
+    """Return gains (..., n_sources, n_bands), also those of a frame. Raises: SessionError: another shape."""
+    given = floats("gains", gains.gains if isinstance(gains, HapticFrame) else gains, "-", error=SessionError)
+    if given.shape[-2:] != (n_sources, n_bands):
+        raise SessionError(
+            f"gains has shape {given.shape}; its last two axes must be the {n_sources} sources and {n_bands} bands of "
+            "the session, as in frame.gains and in the result of `would_feel`."
+        )
+    return given
 
 
 def given_points(points_m: object, hands: Sequence[str]) -> dict[str, Floats]:

@@ -49,6 +49,7 @@ from scene2hap.session.arguments import (
     given_contacts,
     given_frame,
     given_frames,
+    given_gains,
     given_points,
     given_poses,
     given_stamp,
@@ -461,6 +462,18 @@ class HapticSession:
         if self._switching.follow_contacts(self._playback.clock.now):
             self._hand_frames.levels_changed()
         return self._hand_frames.would_feel(given)
+
+    def over_threshold_db(self, gains: HapticFrame | ArrayLike) -> NDArray[np.float64]:
+        """Return the level of each source over the threshold of touch at gains of this session.
+
+        Bands count by the share of the source's vibration in them, unlike in `HapticFrame.gain`, the highest gain of
+        all bands. Call it before a source, or its state, changes; a start or stop that is under way does not count.
+        Parameters: gains : (..., n_sources, n_bands), of a frame (or the frame) or of `would_feel`.
+        Returns: (..., n_sources) [dB]; -inf where nothing arrives, and until the loops of an added source are prepared;
+        nan for a source whose loop has no known level.
+        Raises: SessionError: gains of another shape.
+        """
+        return self._hand_frames.over_threshold_db(given_gains(gains, len(self.source_ids), self.config.bands.n_bands))
 
     @overload
     def plot_felt(

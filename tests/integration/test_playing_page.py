@@ -1,4 +1,4 @@
-"""The reports in docs/playing.md are those of the built-in kitchen."""
+"""The reports in docs/playing.md and the observation in docs/trials.md are those of the built-in kitchen."""
 
 from __future__ import annotations
 
@@ -10,9 +10,12 @@ import pytest
 
 from scene2hap import HapticBundle, HapticSession, Touch
 
-PAGE = (Path(__file__).parents[2] / "docs" / "playing.md").read_text(encoding="utf-8")
-(OBSERVE,) = re.findall(r"## Vibration as numbers\n.*?```python\n(.*?)\n\n\nprint\(", PAGE, re.DOTALL)
-REPORTS = re.findall(r"```\n(left touches back_wall:\n.*?)```", PAGE, re.DOTALL)
+DOCS = Path(__file__).parents[2] / "docs"
+TRIALS = (DOCS / "trials.md").read_text(encoding="utf-8")
+(OBSERVE,) = re.findall(r"## Vibration as numbers\n.*?```python\n(.*?)\n\n\nprint\(", TRIALS, re.DOTALL)
+REPORTS = re.findall(
+    r"```\n(left touches back_wall:\n.*?)```", (DOCS / "playing.md").read_text(encoding="utf-8"), re.DOTALL
+)
 
 
 @pytest.mark.parametrize(("kind", "report"), list(zip(["exponential_plate", "modal_plate"], REPORTS, strict=True)))

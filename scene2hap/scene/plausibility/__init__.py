@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple
 
-Kind = Literal["units", "quaternions", "up-axis", "floating", "sunk", "mass", "merged", "hinge"]
+Kind = Literal[
+    "units", "half-sizes", "bottoms", "quaternions", "up-axis", "floating", "sunk", "mass", "merged", "hinge"
+]
 
 
 class Finding(NamedTuple):

@@ -43,17 +43,15 @@ def resting_share(boxes: Floats, up: int) -> float:
     for some, near in _batches(boxes):
         gaps = low[some, None, up] - high[None, near, up]
         over = ((low[some, None, :] < high[near]) & (high[some, None, :] > low[near]))[..., level].all(axis=2)
+        over &= some[:, None] != near
         rests[some] |= (over & (np.abs(gaps) <= _RESTS_M)).any(axis=1)
     return float(rests.mean())
 
 
 def misplaced(scene: SceneData, boxes: Floats, ids: tuple[str, ...], up: int) -> Iterator[Finding]:
-    """Find a room, or else single objects, that float or are sunk into the floor."""
-    room = list(_room(scene, boxes, ids, up))
-    yield from room
-    if not room:
-        yield from _floating(boxes, ids, up)
-        yield from _sunk(scene, boxes, ids, up)
+    """Find objects that float or are sunk into the floor."""
+    yield from _floating(boxes, ids, up)
+    yield from _sunk(scene, boxes, ids, up)
 
 
 def _batches(boxes: Floats, reach_m: float = 0.0) -> Iterator[tuple[Indices, Indices]]:
@@ -215,7 +213,7 @@ def _ground_below(floor: SceneObject, boxes: Floats, up: int) -> Floats:
     return heights
 
 
-def _room(scene: SceneData, boxes: Floats, ids: tuple[str, ...], up: int) -> Iterator[Finding]:
+def misplaced_room(scene: SceneData, boxes: Floats, ids: tuple[str, ...], up: int) -> Iterator[Finding]:
     """Find a room in which no object is on the floor, or in which most objects are sunk into the floor."""
     found = _floor(boxes, up)
     if found is None or found[1].sum() < FEW:

@@ -22,7 +22,7 @@ from scene2hap.propagation.protocol import Carrier, CarryingField
 from scene2hap.session.explanation.report import Explanation, FeltSource, PathStep, decibels
 from scene2hap.session.explanation.why_silent import WhySilent
 from scene2hap.session.frame import Touch
-from scene2hap.session.gains.audibility import NOWHERE
+from scene2hap.session.gains.audibility import NOWHERE, arriving
 from scene2hap.session.gains.hand_frames import LastFrame
 from scene2hap.session.mix.sources import Sources
 from scene2hap.session.present_scene.scene_state import SceneState
@@ -38,7 +38,7 @@ class Explainer:
     def __init__(self, state: SceneState, sources: Sources, model: object, last: LastFrame) -> None:
         self._state, self._sources, self._model, self._last = state, sources, model, last
         self._why = WhySilent(state, sources, model)
-        self._peaks = last.peaks.astype(np.float64)
+        self._peaks = last.peaks
         self._column = {source_id: column for column, source_id in enumerate(sources.ids)}
         self._carrying = last.field if isinstance(last.field, CarryingField) else None
         field = last.field
@@ -81,12 +81,6 @@ class Explainer:
         felt = gains * self._peaks[self._column[source_id]]
         return int((felt if felt.any() else gains).argmax())
 
-    def _arriving(self, source_id: str, gains: NDArray[np.float64]) -> float:
-        """Return the amplitude over all bands re that on the source itself [-]."""
-        peaks = self._peaks[self._column[source_id]]
-        whole = float(np.linalg.norm(peaks))
-        return float(np.linalg.norm(peaks * gains * self._last.levels[source_id])) / whole if whole > 0.0 else 0.0
-
     def _felt(self, source_id: str, band: int, touch: Touch, gains: NDArray[np.float64]) -> FeltSource:
         """Return the report of a source at the touch where its gains (n_bands,) are highest."""
         on = touch.object_id
@@ -100,7 +94,8 @@ class Explainer:
             steps = () if legs is None else _steps(source_id, legs, self._gains_along(legs, source_id, band))
         source = self._sources[source_id]
         felt = source.rows[source.state].loop.felt
-        over_db = None if felt is None else felt.level_db + decibels(self._arriving(source_id, gains))
+        amplitude = float(arriving(gains * self._last.levels[source_id], self._peaks[self._column[source_id]]))
+        over_db = None if felt is None else felt.level_db + decibels(amplitude)
         return FeltSource(source_id, source.state, on, gain_db, level_db, band, steps, carriers, over_db)
 
     def _gains_along(self, legs: Sequence[Leg], source_id: str, band: int) -> list[float]:

@@ -38,6 +38,18 @@ NOWHERE = -1.0
 _COSTS = np.concatenate([[0.0], np.geomspace(1e-4, 100.0, 240)])
 
 
+def arriving(gains: NDArray[np.float64], peaks: NDArray[np.float32]) -> NDArray[np.float64]:
+    """Return the amplitude of each source over all bands, re that on the source itself (..., n_sources) [-].
+
+    Parameters: gains (..., n_sources, n_bands) [-]; peaks (n_sources, n_bands) in thresholds of touch. A gain in a band
+    in which a source has no vibration is not felt, however high. 0 for a source whose loop is not ready.
+    """
+    given = peaks.astype(np.float64)
+    whole = np.linalg.norm(given, axis=-1)
+    found: NDArray[np.float64] = np.linalg.norm(gains * given, axis=-1) / np.where(whole > 0.0, whole, 1.0)
+    return found
+
+
 class Audibility:
     """Decides which bands of some sources are strong enough to be mixed.
 

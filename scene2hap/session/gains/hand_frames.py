@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
@@ -15,7 +16,7 @@ from scene2hap.propagation.live import LiveField, PathCostField
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.fields.requests import FieldProvider, FieldRequests
 from scene2hap.session.frame import HapticFrame, Touch, TouchesByHand
-from scene2hap.session.gains.audibility import SILENT, Audibility, CutoffCost
+from scene2hap.session.gains.audibility import SILENT, Audibility, CutoffCost, arriving
 from scene2hap.session.gains.hand_gains import AllGains, GainMethod, HandGains, Loudness, PrunedGains, TouchGains
 from scene2hap.session.mix.sources import LoopRow, Sources
 from scene2hap.session.present_scene.scene_state import SceneState
@@ -179,6 +180,15 @@ class HandFrames:
         for one, touch in zip(given, touches, strict=True):
             one *= levels[touch.hand]
         return np.where(given < SILENT, 0.0, given)
+
+    def over_threshold_db(self, gains: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Levels over the threshold of touch [dB] (..., n_sources), see `HapticSession.over_threshold_db`."""
+        felt = [row.loop.felt for row in self._sources.active_rows()]
+        full_db = np.array([math.nan if one is None else one.level_db for one in felt])
+        amplitudes = arriving(gains, self._known_audibility().peaks[:, 0])
+        with np.errstate(divide="ignore"):
+            levels_db: NDArray[np.float64] = 20 * np.log10(amplitudes) + full_db
+        return levels_db
 
     def stats(self, rows_not_mixed: int) -> SessionStats:
         """Counters so far."""

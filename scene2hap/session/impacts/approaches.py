@@ -71,13 +71,16 @@ class Approaches:
                 came = self._motion.nearing_m(object_id, other, point, *between)
                 # A pivot does not travel: links of a robot have no other contact with each other.
                 if math.hypot(*came) > LEAST_TRAVEL_M:
-                    yield Approach(other, point, came, self._normal(object_id, other, point, side, between[0]), meets)
+                    normal = self._normal(object_id, other, point, side, between[0])
+                    enters = meets or partial(self._enters, object_id, other, point, came, normal)
+                    yield Approach(other, point, came, normal, enters)
 
     def in_holders(self, object_id: str, between: tuple[int, int]) -> Iterator[Approach]:
         """Approaches of a drawer to what encloses it."""
         beside = self._graph.beside.get(object_id, NO_JUNCTIONS)
         for other in sorted(beside):
-            if may_enclose(self._state.objects[other], self._state.objects[object_id]):
+            item, holder = self._state.objects[object_id], self._state.objects[other]
+            if may_enclose(holder, item, (item.pose, holder.pose)):
                 point = _middle(beside[other])
                 came = self._motion.nearing_m(object_id, other, point, *between)
                 is_shut = partial(self._is_shut, object_id, other)
@@ -89,12 +92,27 @@ class Approaches:
         The point of a contact is half way between the two surfaces. The box around the object reaches at least as far
         as its own.
         """
+        return 2 * self._gap_m(object_id, point_m, normal) <= TOUCH_M
+
+    def _gap_m(self, object_id: str, point_m: Vector, normal: Vector) -> float:
+        """Distance along a normal from the box around an object to a point [m], negative within the box."""
         pose = self._graph.pose(object_id)
         (x, y, z), (u, v, w) = normal, pose.position_m
         own_normal = in_own((u + x, v + y, w + z), pose)
         reach_m = sum(abs(part) * half for part, half in zip(own_normal, self._state.half_m(object_id), strict=True))
         middle_m = in_world(self._motion.tracks[object_id].own_m, pose)
-        return 2 * (dot(difference(point_m, middle_m), normal) - reach_m) <= TOUCH_M
+        return dot(difference(point_m, middle_m), normal) - reach_m
+
+    def _enters(self, object_id: str, other: str, point_m: Vector, came_m: Vector, normal: Vector) -> bool:
+        """Return False if an object comes out of another one through the surface at a contact, as a drawer out of a
+        solid box that stands for its cabinet: it was within, and reaches farther out than it came."""
+        item, holder = self._state.objects[object_id], self._state.objects[other]
+        middle_m = in_world(self._state.middle_m(other), self._graph.pose(other))
+        return (
+            dot(difference(point_m, middle_m), normal) <= 0
+            or self._gap_m(object_id, point_m, normal) >= -TOUCH_M - dot(came_m, normal)
+            or not may_enclose(holder, item, self._motion.poses(object_id, other)[0])
+        )
 
     def _slam(self, object_id: str) -> Slam | None:
         """Return what an object may slam against, see `slam_of`; None also without a hinge."""

@@ -98,11 +98,11 @@ def slam_of(item: SceneObject, hinge: Hinge, holder: SceneObject, way: RelativeP
     return Slam(item, holder, way)
 
 
-def may_enclose(holder: SceneObject, item: SceneObject) -> bool:
-    """Return False if an object is clearly not a drawer of another one: the middle of its box is not in the other's,
-    where the scene has both."""
+def may_enclose(holder: SceneObject, item: SceneObject, poses: tuple[Pose, Pose]) -> bool:
+    """Return False if an object is clearly not in another one at the poses of both: the middle of its box is not in the
+    other's."""
     low, high = holder.geometry.mesh.bounds_m.tolist()
-    at_m = _place(own_middle_m(item), (item.pose, holder.pose))
+    at_m = _place(own_middle_m(item), poses)
     return all(a <= x <= b for a, x, b in zip(low, at_m, high, strict=True))
 
 

@@ -1,12 +1,13 @@
 """User overrides of inferred values."""
 
 import json
+import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from scene2hap import AudioClip, Credit, HapticBundle, HapticSession, Material, Touch, materials
+from scene2hap import AudioClip, Credit, HapticBundle, HapticSession, Material, SceneWarning, Touch, materials
 from scene2hap.audio.encoding import encoded
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.errors import AudioError, BundleError, MaterialError, UnknownMaterial, UnknownObject
@@ -33,6 +34,15 @@ def test_state_override_is_the_state_that_a_session_begins_with(bundle: HapticBu
     assert [state.name for state in bundle.objects["phone"].states] == ["ringing", "alarm"]
     assert [state.name for state in changed.objects["phone"].states] == ["alarm", "ringing"]
     assert HapticSession(changed).source("phone").state == "alarm"
+
+
+def test_a_number_beside_a_state_changes_all_states_and_warns(bundle: HapticBundle) -> None:
+    with pytest.warns(SceneWarning, match=r"every state.* write start_up_s=\{'alarm': 0\.9\}"):
+        changed = bundle.override("phone", state="alarm", start_up_s=0.9)
+    assert [one.start_up_s for one in changed.objects["phone"].states] == [0.9, 0.9]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        bundle.override("phone", state="alarm", start_up_s={"alarm": 0.9})
 
 
 def test_material_override_accepts_a_name_or_constants(bundle: HapticBundle) -> None:

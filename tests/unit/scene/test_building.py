@@ -3,6 +3,7 @@
 import math
 import tracemalloc
 import warnings
+from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import replace
 
@@ -32,6 +33,16 @@ ROOM = [
 
 def moved(item: SceneObject, **changes: object) -> SceneObject:
     return replace(item, **changes)
+
+
+def lowered(objects: Sequence[SceneObject], up: int = 1) -> list[SceneObject]:
+    """The objects with their middles where their bottoms were."""
+    down_m = [np.eye(3)[up] * np.ptp(item.bounds_m, axis=0)[up] / 2 for item in objects]
+    poses = [
+        Pose(tuple(item.pose.position_m - by_m), item.pose.rotation_xyzw)
+        for item, by_m in zip(objects, down_m, strict=True)
+    ]
+    return [moved(item, pose=pose, surface=None) for item, pose in zip(objects, poses, strict=True)]
 
 
 def test_object_measures_its_surface() -> None:
@@ -154,6 +165,13 @@ def test_check_finds_nothing_in_a_valid_room() -> None:
         ("floating", ("mug",), [*ROOM[:3], moved(ROOM[3], pose=Pose((-0.3, 1.9, 0.1))), ROOM[4]], "y"),
         ("sunk", ("crate",), [*ROOM[:4], moved(ROOM[4], pose=Pose((1.2, -0.5, 1.0)))], "y"),
         ("up-axis", tuple(item.id for item in ROOM), ROOM, "z"),
+        (
+            "half-sizes",
+            tuple(item.id for item in ROOM),
+            [moved(item, geometry=Box(tuple(x / 2 for x in item.geometry.size_m)), surface=None) for item in ROOM],
+            "y",
+        ),
+        ("bottoms", tuple(item.id for item in ROOM), lowered(ROOM), "y"),
         ("mass", ("mug",), [*ROOM[:3], moved(ROOM[3], mass_kg=20.0), ROOM[4]], "y"),  # 31 kg/l in its box
         (
             "quaternions",
@@ -197,6 +215,15 @@ def test_check_finds_each_kind_of_mistake(
     found = scene.check()
     assert [(one.kind, one.object_ids) for one in found][:1] == [(kind, object_ids)]
     assert str(found[0]).endswith(".")
+
+
+def test_half_sizes_of_few_flat_objects_are_found() -> None:
+    """Objects of less than 6 cm do not rest on themselves."""
+    sizes_m = {"floor": (3, 0.05, 2), "table": (0.6, 0.36, 0.35), "phone": (0.035, 0.004, 0.075)}
+    objects = [moved(item, geometry=Box(sizes_m[item.id])) for item in ROOM[:3]]
+    (found,) = SceneSnapshot.build(objects).check()
+    assert found.kind == "half-sizes"
+    assert "33% of 3 objects rest on others, 100% if all were twice as large" in str(found)
 
 
 def test_what_stands_in_a_valley_is_not_sunk() -> None:
@@ -354,6 +381,20 @@ def test_a_scene_of_thousands_is_checked_in_bounded_memory() -> None:
 def test_real_scenes_pass_the_check_and_fail_with_another_up_axis(name: str) -> None:
     scene = load_scene(needed(SCENES / name))
     assert scene.check() == ()
+    halved = [
+        moved(item, geometry=TriMesh(middle + (mesh.vertices_m - middle) / 2, mesh.faces), surface=None)
+        for item in scene.objects
+        for mesh in [item.geometry.mesh]
+        for middle in [mesh.bounds_m.mean(axis=0)]
+    ]
+    (found,) = SceneSnapshot.build(halved, up_axis=scene.up_axis).check()
+    assert found.kind == "half-sizes"
+    bottoms = lowered(scene.objects, "xyz".index(scene.up_axis))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UnitWarning)  # appliances end lower above the floor than usual ones
+        found = SceneSnapshot.build(bottoms, up_axis=scene.up_axis).check()[-1]
+    # The floors of the houses are thin, so that most other objects sink deeper.
+    assert found.kind == ("sunk" if name.startswith("aws") else "bottoms")
     other = replace(scene, up_axis="z" if scene.up_axis == "y" else "y")
     assert "up-axis" in {found.kind for found in other.check()}
 

@@ -169,13 +169,18 @@ def test_level_is_that_of_the_mix_in_third_octaves(kind: str) -> None:
     loop = dataclasses.replace(tone_loop(200), felt=Sensation(31.0, 31.0))
     config = {"sample_rate_hz": RATE, "propagation": kind, "prepare": "blocking", "bands": "third-octaves"}
     s = HapticSession(snapshot, dataclasses.replace(bundle, loops={"phone": {"ringing": loop}}), config)
-    s.update(touches=[ON_TABLE, Touch("right", "phone", (0.3, 0.745, 0.4))])
+    frame = s.update(touches=[ON_TABLE, Touch("right", "phone", (0.3, 0.745, 0.4))])
     s.render_s(0.5)
     left, right = np.std(s.render_s(0.5), axis=0)
     (felt,) = s.explain("left").felt
     in_mix_db = 31.0 + 20 * math.log10(left / right)
     assert felt.over_threshold_db == pytest.approx(in_mix_db, abs=1.0)
     assert felt.is_too_weak == (in_mix_db < 0.0)
+    assert s.over_threshold_db(frame)[:, 0] == pytest.approx([in_mix_db, 31.0], abs=1.0)
+    assert s.over_threshold_db(s.would_feel([ON_TABLE]))[0, 0] == pytest.approx(felt.over_threshold_db, abs=1e-3)
+    assert s.over_threshold_db(0 * frame.gains).tolist() == [[-math.inf], [-math.inf]]
+    with pytest.raises(SessionError, match=r"1 sources and 20 bands"):
+        s.over_threshold_db(frame.gains.max(axis=2))
 
 
 @pytest.mark.parametrize("bands", ["dominant", "third-octaves"])

@@ -300,6 +300,45 @@ def test_a_drawer_slams_when_it_is_shut_where_physics_is_slower_than_frames(phas
     assert 0.6 < slam.speed_m_s < 1.25
 
 
+def box_drawer(out_m: Angles) -> list[Impact]:
+    """The impacts of a drawer that is a box in a solid box, as games have them, while it is `out_m` far out."""
+    floor = SceneObject("floor", pose=Pose((0.0, -0.05, 0.0)), geometry=Box((4.0, 0.1, 4.0)))
+    cabinet = SceneObject("wooden cabinet", pose=Pose((0.0, 0.45, 0.0)), geometry=Box((0.6, 0.9, 0.6)))
+    drawer = SceneObject("drawer", pose=Pose((0.0, 0.6, 0.0)), geometry=Box((0.58, 0.2, 0.6)))
+    scene = SceneSnapshot.build([floor, cabinet, drawer])
+    session = HapticSession(scene, bake(scene))
+    found: dict[Impact, None] = {}
+    for frame in range(-10, 90):
+        pose = Pose((0.0, 0.6, out_m(max(0.0, frame / 90))))
+        session.update({"drawer": pose}, [Touch("left", "wooden cabinet", (0.3, 0.6, 0.0))])
+        session.render_s(1 / 90)
+        found |= dict.fromkeys(session.impacts)
+    return [*found]
+
+
+@pytest.mark.parametrize("open_m", [0.1, 0.2])
+def test_a_drawer_that_comes_out_of_a_solid_box_does_not_strike_its_front(open_m: float) -> None:
+    assert box_drawer(lambda time_s: min(open_m, 0.8 * time_s)) == []
+
+
+def test_a_drawer_that_is_a_box_in_a_solid_box_slams_when_it_is_shut() -> None:
+    (slam,) = box_drawer(closing(0.8))
+    assert (slam.object_id, slam.with_object) == ("wooden cabinet", "drawer")
+    assert slam.speed_m_s == pytest.approx(0.8, rel=0.03)
+
+
+def test_an_object_that_falls_inside_another_lands_on_its_bottom() -> None:
+    """It goes outwards too, but not through the surface."""
+    crate, _ = chest(0.012)
+    box = SceneObject("box", pose=Pose((0.0, 0.25, 0.0)), geometry=Box((0.1, 0.06, 0.1)))
+    scene = SceneSnapshot.build([crate, box])
+    session = HapticSession(scene, bake(scene))
+    for frame in range(-10, 90):
+        session.update({"box": Pose((0.0, max(BOARD_M + 0.03, 0.25 - 4.9 * max(0.0, frame / 90) ** 2), 0.0))})
+        session.render_s(1 / 90)
+    assert session.stats.impacts == 1
+
+
 def test_an_object_that_is_slid_to_its_place_on_a_table_does_not_slam() -> None:
     """Nothing encloses it."""
     table = SceneObject("wooden table", pose=Pose((0.0, 0.375, 0.0)), geometry=Box((1.0, 0.75, 1.0)))
