@@ -218,13 +218,15 @@ class EmbreeRenderer:
         return ids.reshape(camera.size_px, camera.size_px)
 
     def _tree(self, objects: frozenset[int]) -> _Tree:
-        """Return the tree over whole objects, built at the first use."""
-        if objects not in self._trees:
+        """Return the tree over whole objects, built at the first use. Of those over several, the last used are kept."""
+        tree = self._trees.pop(objects, None)
+        if tree is None:
             large = [known for known in self._trees if len(known) > 1]
             if len(objects) > 1 and len(large) >= _LARGE_TREES:
                 del self._trees[large[0]]
-            self._trees[objects] = self._built(np.flatnonzero(np.isin(self._object_of, list(objects))))
-        return self._trees[objects]
+            tree = self._built(np.flatnonzero(np.isin(self._object_of, list(objects))))
+        self._trees[objects] = tree  # at the end: the first is the one that was not used for the longest time
+        return tree
 
     def _faces_left(
         self, objects: frozenset[int], camera: Camera, selection: Selection, passed: Flags | None
