@@ -31,6 +31,7 @@ _OPTIONS = {
 MAX_LIBRARIES = 1_000
 """Most libraries that one OBJ file may name (assumed: a hundred times as many as exporters write)."""
 _WORD = re.compile(r"\S+")
+_COMMENT = re.compile(r"(?:^|\s)#.*")
 _WORDS_AS_VALUES = ("-blendu", "-blendv", "-cc", "-clamp", "-imfchan", "-type")
 
 
@@ -109,11 +110,16 @@ class MtlLibraries:
         return replace(mapping, paint=FaceMaterial((r, g, b, a), texture, name))
 
 
+def without_comment(line: str) -> str:
+    """Return a line of an OBJ or MTL file without its comment. A name may contain the sign: `Chair#2`."""
+    return _COMMENT.sub("", line) if "#" in line else line
+
+
 def _blocks(text: str) -> Iterator[tuple[str, dict[str, str]]]:
     """Yield each material's name and its statements by lower-case keyword."""
     name, rows = None, dict[str, str]()
     for line in text.splitlines():
-        keyword, _, rest = line.partition("#")[0].strip().replace("\t", " ").partition(" ")
+        keyword, _, rest = without_comment(line).strip().replace("\t", " ").partition(" ")
         if keyword.lower() == "newmtl":
             if name is not None:
                 yield name, rows

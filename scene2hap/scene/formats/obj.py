@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scene2hap.common.checks import represented
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.formats.mtl import MtlLibraries
+from scene2hap.scene.formats.mtl import MtlLibraries, without_comment
 from scene2hap.scene.formats.polygons import triangulated
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
@@ -117,7 +117,7 @@ def _statements(text: str) -> Iterator[tuple[int, str, str]]:
     # Lines are joined once per statement, since one statement may have a hundred thousand lines.
     continued: list[str] = []
     for number, line in enumerate(text.splitlines(), start=1):
-        line = line.partition("#")[0]
+        line = without_comment(line)
         if line.endswith("\\"):
             continued.append(line[:-1])
             continue
