@@ -53,7 +53,7 @@ class DaeMaterials:
         if not is_map(paint):
             r, g, b = FaceMaterial().color_rgba[:3] if paint is None else _color(paint)
             return FaceMaterial((r, g, b, opacity))
-        uri = str(paint.sampler.surface.image.path).strip().replace("\\", "/")
+        uri = str(paint.sampler.surface.image.path).strip()
         texture = self.textures.from_file(uri, f"material {name!r}", keeps_alpha=is_map(effect.transparent))
         return FaceMaterial((1.0, 1.0, 1.0, opacity), texture)
 
