@@ -84,30 +84,35 @@ class Group:
     key: str = ""
 
 
+def check_grouping(how: object) -> None:
+    """Check that `how` is one of the forms of `Grouping`. Raises: SceneError: it is not."""
+    is_rule = isinstance(how, str) and how in ("authored", "leaf", "loose")
+    is_depth = isinstance(how, int) and not isinstance(how, bool) and how >= 0
+    is_table = isinstance(how, Mapping) and all(isinstance(name, str) for pair in how.items() for name in pair)
+    if not (is_rule or is_depth or is_table):
+        raise SceneError(
+            f"group is {checks.represented(how)}; it must be 'authored', 'leaf', 'loose', a depth from 0, or a mapping "
+            "of node names to object names."
+        )
+
+
 def group_objects(roots: Sequence[AuthoredNode], how: Grouping = "authored", *, scene_name: str = "") -> list[Group]:
     """Return the objects of a scene in file order. `scene_name` names the object of depth 0.
 
     Raises: SceneError: `how` is none of the forms of `Grouping`, or names a node that the scene does not have.
     """
+    check_grouping(how)
     kept = [node for root in roots if (node := root.with_geometry()) is not None]
     if how != "leaf":
         kept = without_undrawn(kept, how if isinstance(how, Mapping) else ())
     origin = np.eye(4)
-    scene = AuthoredNode(scene_name, origin, children=tuple(kept))
     if how == "authored":
         return [group for root in kept for group in _authored(rejoined(root), origin).groups]
-    if how == "leaf":
-        return list(_at_depth(scene, origin, math.inf))
-    if how == "loose":
-        return list(_loose(_at_depth(scene, origin, math.inf)))
-    if isinstance(how, int) and not isinstance(how, bool) and how >= 0:
-        return list(_at_depth(scene, origin, how))
     if isinstance(how, Mapping):
         return _mapped(kept, how)
-    raise SceneError(
-        f"group is {how!r}; it must be 'authored', 'leaf', 'loose', a depth from 0, or a mapping of node names to "
-        "object names."
-    )
+    depth = how if isinstance(how, int) else math.inf
+    groups = _at_depth(AuthoredNode(scene_name, origin, children=tuple(kept)), origin, depth)
+    return list(_loose(groups) if how == "loose" else groups)
 
 
 def unique_ids(names: Sequence[str]) -> list[str]:
