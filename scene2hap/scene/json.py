@@ -116,7 +116,6 @@ def from_document(document: dict[str, Any]) -> SceneData:
         problem = checks.first_problem(cause)
         raise SceneError(f"scene field {problem.place or '(top)'}: {problem.reason}.") from cause
     for item in scene.objects:
-        _require_bounded(item)
         _require_plausible_thickness(item)
     rows = document["objects"]
     _warn_of_slips("the scene", _SCENE_FIELDS, [document])
@@ -184,16 +183,6 @@ def _without_nulls(row: Any) -> Any:
     if not isinstance(row, dict):
         return row
     return {"surface": _UNMEASURED, **{key: value for key, value in row.items() if value is not None}}
-
-
-def _require_bounded(item: SceneObject) -> None:
-    """Bound coordinates as those of scene files are, before their products exceed the largest number."""
-    most_m = float(max(np.abs(item.geometry.mesh.bounds_m).max(), np.abs(item.pose.position_m).max()))
-    if most_m > limits.MAX_COORDINATE_M:
-        raise SceneError(
-            f"object {item.id!r} is placed or scaled beyond {limits.MAX_COORDINATE_M:g} m, at {most_m:g} m; check its "
-            "pose and its geometry."
-        )
 
 
 def _require_plausible_thickness(item: SceneObject) -> None:

@@ -116,8 +116,8 @@ class SceneObject:
 
     `id` is unique in the scene and stable over loads. `name` is the author's name, which many objects may share; by
     default it is the id. `geometry` is a Box or a TriMesh. A pair of vertices and faces, or an object with both, such
-    as a mesh of the package trimesh, becomes a TriMesh. `surface` is measured with y up if it is not given;
-    `SceneSnapshot.build` measures it for the scene's own up axis. `instance_key` is equal for objects of equal mesh and
+    as a mesh of the package trimesh, becomes a TriMesh. `surface` is measured with y up if it is not given; a
+    `SceneSnapshot` measures it for its own up axis. `instance_key` is equal for objects of equal mesh and
     materials. `relative_height_m` is the height of the lowest point above the lowest point of the whole scene.
     `mass_kg` is the mass from an engine or an author [kg], None if unknown. `hinge` holds the object on another, None
     if it is loose or its contacts are to be found from geometry alone. `material_names` are the authored names of
@@ -162,18 +162,21 @@ class SceneObject:
             object.__setattr__(self, key, value)
         if not isinstance(id, str):
             raise SceneError(f"id is {checks.represented(id)}; it must be a text, and every object has its own.")
-        if not isinstance(self.name, str) or not isinstance(pose, Pose):
-            which, value, wanted = ("name", name, "a text")
-            if isinstance(self.name, str):
-                which, value, wanted = ("pose", pose, f"a Pose: {how_to_write(pose)}")
-            raise SceneError(
-                f"{which} of object {checks.represented(id)} is {checks.described(value)}; it must be {wanted}. "
-                "Give what follows the id by name: SceneObject(id, pose=..., geometry=...)."
-            )
+        for key, kind, wanted in (
+            ("name", str, "a text"),
+            ("pose", Pose, f"a Pose: {how_to_write(pose)}"),
+            ("surface", DominantSurface | None, "a DominantSurface"),
+        ):
+            if not isinstance(given[key], kind):
+                raise SceneError(
+                    f"{key} of object {checks.represented(id)} is {checks.described(given[key])}; it must be {wanted}. "
+                    "Give what follows the id by name: SceneObject(id, pose=..., geometry=...)."
+                )
         object.__setattr__(self, "geometry", geometry_of(geometry, f"object {checks.represented(id)}"))
-        if surface is None:
-            object.__setattr__(self, "surface", _measured(self.geometry, _up_of(pose, "y"), is_assumed=True))
         self.__post_init__()
+        # `replace(item, geometry=...)` passes the surface of the former geometry.
+        if surface is None or (surface.assumed_for is not None and surface.assumed_for[0] != self.geometry):
+            object.__setattr__(self, "surface", _measured(self.geometry, _up_of(pose, "y"), is_assumed=True))
 
     def __post_init__(self) -> None:
         if not self.id:
@@ -182,6 +185,13 @@ class SceneObject:
             raise SceneError(
                 f"id is {checks.represented(self.id)}, with half of a character, as file names of another encoding "
                 f"have it; files hold none. Give another id, as {checks.represented(writable(self.id))}."
+            )
+        # Squares and cubes of larger coordinates lose their digits, or exceed the largest number.
+        most_m = max(self.geometry.mesh.reach_m, *map(abs, self.pose.position_m))
+        if most_m > limits.MAX_COORDINATE_M:
+            raise SceneError(
+                f"object {checks.represented(self.id)} is placed or scaled beyond {limits.MAX_COORDINATE_M:g} m, at "
+                f"{most_m:g} m; check its pose and its geometry."
             )
         height = checks.number("relative_height_m", self.relative_height_m, "m", error=SceneError)
         object.__setattr__(self, "relative_height_m", height)
@@ -242,9 +252,14 @@ class SceneObject:
         return replace(self, hinge=Hinge(other.id, own, theirs))
 
 
-def measured_surface(geometry: Geometry, pose: Pose, up_axis: UpAxis) -> DominantSurface:
-    """Return the dominant surface of an object at this rotation, cached for equal meshes."""
-    return _measured(geometry, _up_of(pose, up_axis))
+def with_known_up(item: SceneObject, up_axis: UpAxis) -> SceneObject:
+    """Return an object of a scene with this up axis. A surface that was measured before the axis was known is measured
+    again where axis or pose differ."""
+    assumed_for = item.surface.assumed_for
+    if assumed_for is None:
+        return item
+    now = (item.geometry, _up_of(item.pose, up_axis))
+    return replace(item, surface=replace(item.surface) if assumed_for == now else _measured(*now))
 
 
 def _up_of(pose: Pose, up_axis: UpAxis) -> tuple[float, ...]:
@@ -255,7 +270,7 @@ def _up_of(pose: Pose, up_axis: UpAxis) -> tuple[float, ...]:
 def _measured(geometry: Geometry, up: tuple[float, ...], *, is_assumed: bool = False) -> DominantSurface:
     if is_assumed:
         surface = replace(_measured(geometry, up))  # that one may be of a scene whose up axis is known
-        object.__setattr__(surface, "is_assumed", True)
+        object.__setattr__(surface, "assumed_for", (geometry, up))
         return surface
     from scene2hap.scene.surface.dominant_surface import (
         dominant_surface,  # given or stored surfaces need no measurement
@@ -287,7 +302,7 @@ def unknown_object(object_id: object, known: Mapping[str, object]) -> str:
 _MOST_NAMED = 10
 
 
-def with_relative_heights(objects: list[SceneObject], up_axis: UpAxis) -> tuple[SceneObject, ...]:
+def with_relative_heights(objects: Sequence[SceneObject], up_axis: UpAxis) -> tuple[SceneObject, ...]:
     """Return the objects with `relative_height_m` measured from the lowest of them."""
     up = VERTICAL[up_axis]
     bottoms = [float(item.bounds_m[0, up]) for item in objects]

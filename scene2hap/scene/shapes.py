@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Protocol
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -136,6 +136,11 @@ class TriMesh:
         """Lowest and highest corner (2, 3) [m] in the own frame, of the vertices that faces use. Read-only."""
         return frozen(bounds_of(self.corners_m))
 
+    @cached_property
+    def reach_m(self) -> float:
+        """The largest absolute coordinate [m], of the vertices that faces use."""
+        return float(np.abs(self.bounds_m).max())
+
 
 Geometry = Box | TriMesh
 
@@ -192,7 +197,9 @@ class DominantSurface:
     thickness_m: Real
     flags: tuple[SurfaceFlag, ...] = ()
     outline: Outline | None = None
-    is_assumed = False  # measured with y up, before the scene is known; no dataclass field, so that it is not stored
+    # Of a surface that was measured with y up, before the scene is known: the geometry, and the upward direction in its
+    # frame. It is no dataclass field, so that it is not stored.
+    assumed_for: ClassVar[tuple[Geometry, tuple[float, ...]] | None] = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.pose, Pose):
