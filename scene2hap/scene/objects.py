@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
@@ -21,7 +22,7 @@ from scene2hap.scene import limits
 from scene2hap.scene.geometry import bounds_of, frozen
 from scene2hap.scene.images import ObjectImages
 from scene2hap.scene.looks.appearance import Appearance
-from scene2hap.scene.pose import Pose, how_to_write
+from scene2hap.scene.pose import LEAST_LENGTH, UNIT_TOLERANCE, Pose, how_to_write
 from scene2hap.scene.shapes import DominantSurface, Geometry, MeshLike, geometry_of
 
 UpAxis = Literal["y", "z"]
@@ -38,8 +39,8 @@ _AT_ORIGIN = Pose()
 class Contact:
     """A contact point of two objects, given by an engine or found from geometry. A pair may have several.
 
-    Parameters: point_m : world [m]; normal : unit, from `a` to `b`; area_m2 : of the patch that the point represents
-        [m2]; weight : from 1 (touching) to 0 (gone) [-].
+    Parameters: point_m : world [m]; normal : unit, from `a` to `b`; another length is normalised, and 0 gives None;
+        area_m2 : of the patch that the point represents [m2]; weight : from 1 (touching) to 0 (gone) [-].
     """
 
     a: str
@@ -71,7 +72,10 @@ class Contact:
         object.__setattr__(self, "point_m", point)
         if self.normal is not None:
             normal = checks.vector("normal", self.normal, "-", size=3, error=SceneError)
-            object.__setattr__(self, "normal", normal)
+            length = math.hypot(*normal)
+            if abs(length - 1.0) > UNIT_TOLERANCE:
+                normal = tuple(part / length for part in normal) if length >= LEAST_LENGTH else ()
+            object.__setattr__(self, "normal", normal or None)
         if self.area_m2 is not None:
             area = checks.number("area_m2", self.area_m2, "m2", at_least=0.0, error=SceneError)
             object.__setattr__(self, "area_m2", area)
