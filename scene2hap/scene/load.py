@@ -64,7 +64,7 @@ def load_scene(
         folder above the scene, up to five levels, that holds `*.scene_dataset_config.json`.
     names : only for Habitat scenes, whose templates may be hashes: object names by template, or the path of such a
         table. The table is JSON that maps templates to names, or CSV with columns such as id and name. HSSD's own
-        tables are found without this parameter; see `scene2hap.scene.formats.habitat_names`.
+        tables are found without this parameter; see `scene2hap.scene.formats.habitat.names`.
 
     Returns: the scene named after the file. An object has the pose of the node that names it, without scale. Copies of
         one mesh share one TriMesh, and one instance_key if they look alike. Ids are the authored names. The second and
@@ -128,7 +128,7 @@ def _loaded(
         snapshot = _from_mjcf(path, up_axis, unit, group, root)
     else:
         if is_habitat(path):
-            from scene2hap.scene.formats.habitat import read_habitat
+            from scene2hap.scene.formats.habitat.reader import read_habitat
 
             authored = read_habitat(path, None if assets_root is None else root, names, _read)
         else:
@@ -156,7 +156,7 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
         )
     # Each reader is imported at its first use: a game that loads GLB pays for no other.
     if suffix in (".glb", ".gltf"):
-        from scene2hap.scene.formats.gltf import read_gltf
+        from scene2hap.scene.formats.gltf.reader import read_gltf
 
         return read_gltf(path, assets_root)
     if suffix in _USD_SUFFIXES:

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import MissingExtra, SceneFormatError
-from scene2hap.scene.formats.gltf_accessors import unpacked, view
-from scene2hap.scene.formats.gltf_container import GltfFile, Json
+from scene2hap.scene.formats.gltf.accessors import unpacked, view
+from scene2hap.scene.formats.gltf.container import GltfFile, Json
 
 DRACO = "KHR_draco_mesh_compression"
 _VERSION = (2, 2)

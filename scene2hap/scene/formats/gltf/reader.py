@@ -2,7 +2,7 @@
 
 Nodes are identified by their number in the file, so an object stays the same on every load, even if its name changes.
 Cameras, lights, animations and hidden nodes are left out. Skinned meshes and morph targets have their stored pose
-(`gltf_deformation`). Each copy of an instanced mesh is a node.
+(`gltf.deformation`). Each copy of an instanced mesh is a node.
 
 Source: glTF 2.0 specification, sections 3.5 (scenes and nodes) and 3.7 (meshes); KHR_node_visibility.
 """
@@ -19,12 +19,12 @@ from numpy.typing import NDArray
 from scene2hap.common import checks
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.formats.gltf_accessors import indices, vectors
-from scene2hap.scene.formats.gltf_container import GltfFile, Json, mapping, natural
-from scene2hap.scene.formats.gltf_deformation import Deformation, Deformations
-from scene2hap.scene.formats.gltf_draco import DRACO, draco
-from scene2hap.scene.formats.gltf_instances import INSTANCES, instances
-from scene2hap.scene.formats.gltf_materials import GltfMaterials, TexturedMaterial
+from scene2hap.scene.formats.gltf.accessors import indices, vectors
+from scene2hap.scene.formats.gltf.container import GltfFile, Json, mapping, natural
+from scene2hap.scene.formats.gltf.deformation import Deformation, Deformations
+from scene2hap.scene.formats.gltf.draco import DRACO, draco
+from scene2hap.scene.formats.gltf.instances import INSTANCES, instances
+from scene2hap.scene.formats.gltf.materials import GltfMaterials, TexturedMaterial
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial, painted, srgb
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.pose import Pose

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.formats.gltf_container import GltfFile, Json, natural
-from scene2hap.scene.formats.gltf_meshopt import decoded_view, meshopt_row
+from scene2hap.scene.formats.gltf.container import GltfFile, Json, natural
+from scene2hap.scene.formats.gltf.meshopt import decoded_view, meshopt_row
 
 _DTYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}

@@ -15,7 +15,7 @@
 5. Left out with a warning: shapes without a file, which Habitat generates. Left out without a warning: rows whose
    `is_instance_visible` is false. As in Habitat, a translation or rotation of the stage is not applied; it causes a
    warning, and so do joints that do not begin at 0.
-6. The name of an object comes from `scene2hap.scene.formats.habitat_names`, else from its template. The model of a
+6. The name of an object comes from `scene2hap.scene.formats.habitat.names`, else from its template. The model of a
    template is read once.
 
 Sources: "Using JSON Files to configure Attributes" (https://aihabitat.org/docs/habitat-sim/attributesJSON.html), and in
@@ -43,9 +43,9 @@ from scene2hap.common.printable import writable
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.formats.habitat_dataset import Dataset, Kind, Template, rows_of, scale_of
-from scene2hap.scene.formats.habitat_folder import Json, read_object
-from scene2hap.scene.formats.habitat_names import Names, ObjectNames
+from scene2hap.scene.formats.habitat.dataset import Dataset, Kind, Template, rows_of, scale_of
+from scene2hap.scene.formats.habitat.folder import Json, read_object
+from scene2hap.scene.formats.habitat.names import Names, ObjectNames
 from scene2hap.scene.geometry import Bounds, bounds_of, joined
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, transform, with_own_keys

@@ -13,8 +13,8 @@ from gltf_builder import CUBE, CUBE_FACES, Gltf, one_cube
 from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.formats.gltf import read_gltf
-from scene2hap.scene.formats.gltf_accessors import unpacked
+from scene2hap.scene.formats.gltf.accessors import unpacked
+from scene2hap.scene.formats.gltf.reader import read_gltf
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.shapes import TriMesh

@@ -39,7 +39,7 @@ from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.files import inside
-from scene2hap.scene.formats.habitat_folder import DatasetFolder, Json, is_file, resolved, with_slashes
+from scene2hap.scene.formats.habitat.folder import DatasetFolder, Json, is_file, resolved, with_slashes
 from scene2hap.scene.tree import Matrix
 
 Kind = Literal["objects", "stages", "articulated_objects"]
