@@ -16,7 +16,8 @@ from PIL import Image
 
 from scene2hap.common.arrays import Floats, Ints
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB, light
-from scene2hap.scene.capture.faces import Extents, extents, in_view, planes, separates
+from scene2hap.scene.capture.faces import planes, separates
+from scene2hap.scene.capture.panda3d_in_view import Extents, extents, in_view
 from scene2hap.scene.capture.panda3d_screen import Screen, textured
 from scene2hap.scene.capture.protocol import Ids, Pixels, Selection
 from scene2hap.scene.capture.render_scene import RenderScene

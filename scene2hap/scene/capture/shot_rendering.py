@@ -24,8 +24,8 @@ _LEAST_FACTOR = 1.25
 
 
 @dataclass(frozen=True, eq=False)
-class Photographer:
-    """Producer of pictures of a `RenderScene`; equal input gives equal bytes. `below` : the scene's `supports`."""
+class ShotRenderer:
+    """Renderer of the shots of a `RenderScene`; equal input gives equal bytes. `below` : the scene's `supports`."""
 
     scene: RenderScene
     renderer: Renderer
@@ -54,7 +54,7 @@ class Photographer:
         wide = close.widened(min(config.context_factor, widest))
         return wide, self.culler.around(target, close, wide)
 
-    def take(self, shot: Shot) -> bytes:
+    def render(self, shot: Shot) -> bytes:
         """Return the picture as a PNG file."""
         camera, selection = self.aim(shot)
         picture, ids = drawn(self.renderer, camera, selection)
