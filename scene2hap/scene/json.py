@@ -8,7 +8,7 @@ docs/scene-json.md describes the format for authors of exporters.
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -47,12 +47,15 @@ _UNMEASURED = DominantSurface(Pose(), 0.0, 0.0, 0.0, ("zero-thickness",))
 
 def dump(scene: SceneData) -> str:
     """Return the scene as JSON text with a geometry table."""
-    document = to_document(scene)
     geometries: dict[str, Any] = {}
-    for item, row in zip(scene.objects, document["objects"], strict=True):
-        key = geometry_key(item.geometry)
-        geometries.setdefault(key, row["geometry"])
-        row["geometry"] = key
+
+    def key_of(geometry: Geometry) -> str:
+        key = geometry_key(geometry)
+        if key not in geometries:
+            geometries[key] = plain_geometry(geometry)
+        return key
+
+    document = to_document(scene, key_of)
     return json.dumps({"format": FORMAT, "version": VERSION, **document, "geometries": geometries}, allow_nan=False)
 
 
@@ -79,16 +82,24 @@ def parse(text: str) -> SceneData:
     return from_document(document)
 
 
-def to_document(scene: SceneData) -> dict[str, Any]:
-    """Return the scene as plain JSON values, each object with its geometry."""
-    hidden: Any = {"objects": {"__all__": {"appearance", "images", "material_names"}}}
+def to_document(scene: SceneData, geometry_field: Callable[[Geometry], Any]) -> dict[str, Any]:
+    """Return the scene as plain JSON values, with the field `geometry` of each object from a function."""
+    hidden: Any = {"objects": {"__all__": {"appearance", "images", "material_names", "geometry"}}}
     document: dict[str, Any] = _scene.dump_python(scene, mode="json", exclude=hidden)
     for item, row in zip(scene.objects, document["objects"], strict=True):
+        rest = {key: row.pop(key) for key in tuple(row) if key not in ("id", "name", "pose")}
+        row |= {"geometry": geometry_field(item.geometry), **rest}
         if names := material_names(item):
             row["material_names"] = list(names)
         if item.hinge is None:
             del row["hinge"]
     return document
+
+
+def plain_geometry(geometry: Geometry) -> dict[str, Any]:
+    """Return a geometry as plain JSON values."""
+    row: dict[str, Any] = _geometries[geometry.kind].dump_python(geometry, mode="json")
+    return row
 
 
 def from_document(document: dict[str, Any]) -> SceneData:
