@@ -69,7 +69,7 @@ def parse(text: str) -> SceneData:
             "give path.read_text(), of a dictionary json.dumps(document)."
         )
     try:
-        document = read_json(text)
+        document = read_json(text.removeprefix("\ufeff"))  # Windows tools begin a text so
     except ValueError as cause:
         raise SceneError(f'not JSON: {cause}. A scene file starts with {{"format": "{FORMAT}", ...}}.') from cause
     if not isinstance(document, dict) or document.get("format") != FORMAT:
