@@ -9,10 +9,11 @@ from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from pydantic import InstanceOf
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.counted import first_of
 from scene2hap.common.json_fields import Real
@@ -237,7 +238,7 @@ class SceneObject:
         return (longer, shorter, float(edges[upright]))
 
     @cached_property
-    def bounds_m(self) -> NDArray[np.float64]:
+    def bounds_m(self) -> Floats:
         """Lowest and highest corner (2, 3) [m] in the world. Read-only."""
         return frozen(bounds_of(self.pose.to_world(self.geometry.mesh.corners_m)))
 

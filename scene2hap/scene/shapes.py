@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import PlainSerializer, PlainValidator
 
 from scene2hap.common import checks
-from scene2hap.common.arrays import floats
+from scene2hap.common.arrays import Floats, floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.json_fields import Real
 from scene2hap.errors import SceneError
@@ -125,14 +125,14 @@ class TriMesh:
         return content.hexdigest()[:16]
 
     @property
-    def corners_m(self) -> NDArray[np.float64]:
+    def corners_m(self) -> Floats:
         """The vertices (n, 3) [m] that faces use."""
         is_used = np.zeros(len(self.vertices_m), dtype=bool)  # a tenth of the time of numpy.unique
         is_used[self.faces] = True
         return self.vertices_m[is_used]
 
     @cached_property
-    def bounds_m(self) -> NDArray[np.float64]:
+    def bounds_m(self) -> Floats:
         """Lowest and highest corner (2, 3) [m] in the own frame, of the vertices that faces use. Read-only."""
         return frozen(bounds_of(self.corners_m))
 

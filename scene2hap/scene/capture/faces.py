@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats, Floats32
+from scene2hap.common.arrays import Bools, Floats, Floats32
 
 
 def planes(triangles_m: Floats32) -> Floats:
@@ -18,10 +17,10 @@ def planes(triangles_m: Floats32) -> Floats:
     return np.column_stack((normals, np.einsum("ij,ij->i", normals, a)))
 
 
-def separates(planes_m: Floats, eye_m: Floats, focus_m: Floats) -> NDArray[np.bool_]:
+def separates(planes_m: Floats, eye_m: Floats, focus_m: Floats) -> Bools:
     """Return a mask of the planes (m, 4) that separate eye and focus. Only a face on such a plane can hide the
     focus."""
     of_eye = planes_m[:, :3] @ eye_m - planes_m[:, 3]
     of_focus = planes_m[:, :3] @ focus_m - planes_m[:, 3]
-    is_between: NDArray[np.bool_] = of_eye * of_focus < 0
+    is_between: Bools = of_eye * of_focus < 0
     return is_between

@@ -5,12 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats32
+from scene2hap.common.arrays import Bools, Floats32
 from scene2hap.scene.capture.views import Camera
-
-Flags = NDArray[np.bool_]
 
 # Assumed error of coordinates in single precision [px]. Triangles that are wrongly left out because of it are slivers.
 _BLUR_PX = np.float32(0.05)
@@ -26,8 +23,8 @@ class Extents:
 
     low: Floats32
     high: Floats32
-    is_ahead: Flags
-    is_cut: Flags
+    is_ahead: Bools
+    is_cut: Bools
 
 
 def extents(by_axis_m: Floats32, camera: Camera) -> Extents:
@@ -48,7 +45,7 @@ def extents(by_axis_m: Floats32, camera: Camera) -> Extents:
     return Extents(low, high, is_ahead, is_cut)
 
 
-def in_view(seen: Extents, camera: Camera) -> Flags:
+def in_view(seen: Extents, camera: Camera) -> Bools:
     """Return a mask of the triangles (n,) that can colour a pixel, where corners are rounded down to pixels.
 
     Triangles behind the eye or beside the picture are left out, and triangles whose corners all are in one row or

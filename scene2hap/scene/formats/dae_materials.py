@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats32
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.looks.texture_files import TextureFiles
 
@@ -88,13 +88,13 @@ def _texture_set(link: Any, symbol: str) -> str | None:
     return next((number for name, kind, number in link.inputs if name == symbol and kind == "TEXCOORD"), None)
 
 
-def _coordinates(primitive: Any, number: str | None) -> NDArray[np.float32] | None:
+def _coordinates(primitive: Any, number: str | None) -> Floats32 | None:
     """Return coordinates (m, 3, 2) of a set, or of the first set if there is no such set. v runs down."""
     tables, indices = primitive.texcoordset, primitive.texcoord_indexset
     if not tables:
         return None
     sets = [row[3] for row in primitive.sources.get("TEXCOORD", [])]
     which = sets.index(number) if number in sets else 0
-    uv: NDArray[np.float32] = np.asarray(tables[which], dtype=np.float32)[np.asarray(indices[which])][..., :2].copy()
+    uv: Floats32 = np.asarray(tables[which], dtype=np.float32)[np.asarray(indices[which])][..., :2].copy()
     uv[..., 1] = 1.0 - uv[..., 1]
     return uv

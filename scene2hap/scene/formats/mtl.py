@@ -15,8 +15,8 @@ from pathlib import Path
 from urllib.parse import quote
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import SceneError
 from scene2hap.scene.files import decoded, inside, read_bytes
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
@@ -43,7 +43,7 @@ class MtlMaterial:
     scale: tuple[float, float] = (1.0, 1.0)
     offset: tuple[float, float] = (0.0, 0.0)
 
-    def appearance(self, n_faces: int, uv: NDArray[np.float64] | None) -> Appearance:
+    def appearance(self, n_faces: int, uv: Floats | None) -> Appearance:
         """Return the looks of m faces. uv : (m, 3, 2) texture coordinates of their corners, v running up, or None."""
         if uv is None or not self.paint.has_texture:
             return Appearance.plain(self.paint.untextured(), n_faces)

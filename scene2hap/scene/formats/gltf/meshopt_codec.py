@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-_Bytes = NDArray[np.uint8]
+from scene2hap.common.arrays import Bytes
 
 # First bytes of data: kind of codec and version.
 _ATTRIBUTES, _TRIANGLES, _INDICES = (0xA0, 0xA1), 0xE1, 0xD1
@@ -38,7 +38,7 @@ _CODES_BEHIND_TRIANGLES, _BYTES_BEHIND_INDICES = 16, 4
 _WORD = 0xFFFFFFFF
 
 
-def attributes(data: bytes, count: int, stride: int) -> _Bytes:
+def attributes(data: bytes, count: int, stride: int) -> Bytes:
     """Decode elements (count, stride) of attribute data; `stride` in bytes is a multiple of 4 up to 256.
 
     Raises: ValueError: the data is broken.
@@ -127,7 +127,7 @@ class _GroupReader:
             self._sizes[width] = sizes.tobytes()
         return self._sizes[width]
 
-    def unpack(self) -> _Bytes:
+    def unpack(self) -> Bytes:
         """Return the deltas (n, 16) of all groups found since the last call."""
         starts, bits = np.array(self._starts, np.int64), np.array(self._bits, np.uint8)
         self._starts, self._bits = [], []
@@ -147,7 +147,7 @@ class _GroupReader:
         return deltas
 
 
-def _fields(width: int) -> _Bytes:
+def _fields(width: int) -> Bytes:
     """Return the fields (256, 8 / width) of each byte. Single bits begin with the lowest, others with the highest."""
     shifts = np.arange(8) if width == 1 else np.arange(8 - width, -1, -width)
     return (np.arange(256)[:, None] >> shifts & ((1 << width) - 1)).astype(np.uint8)
@@ -158,7 +158,7 @@ _FIELDS = {width: _fields(width) for width in (1, 2, 4)}
 _N_FULL = {width: (fields == (1 << width) - 1).sum(axis=1).astype(np.uint8) for width, fields in _FIELDS.items()}
 
 
-def _summed(deltas: _Bytes, first: _Bytes, channels: bytes) -> _Bytes:
+def _summed(deltas: Bytes, first: Bytes, channels: bytes) -> Bytes:
     """Return elements (n, stride) from deltas (stride, n). Each word is a difference from the element before it."""
     stride, n = deltas.shape
     if all(channel & 3 == 0 for channel in channels):

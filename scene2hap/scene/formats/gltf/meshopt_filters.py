@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-_Bytes = NDArray[np.uint8]
+from scene2hap.common.arrays import Bytes, Floats
 
 
-def filtered(elements: _Bytes, name: str) -> _Bytes:
+def filtered(elements: Bytes, name: str) -> Bytes:
     """Undo a filter of elements (n, stride): OCTAHEDRAL, QUATERNION, EXPONENTIAL or COLOR.
 
     Raises: ValueError: there is no such filter, or none for elements of this stride.
@@ -30,7 +30,7 @@ def filtered(elements: _Bytes, name: str) -> _Bytes:
         return np.ascontiguousarray(undo(elements)).view(np.uint8)
 
 
-def _octahedral(elements: _Bytes) -> NDArray[Any]:
+def _octahedral(elements: Bytes) -> NDArray[Any]:
     """Return unit vectors from points on an unfolded octahedron; the fourth number is unchanged."""
     dtype = np.dtype("<i1" if elements.shape[1] == 4 else "<i2")
     stored = elements.view(dtype)
@@ -45,7 +45,7 @@ def _octahedral(elements: _Bytes) -> NDArray[Any]:
     return result
 
 
-def _quaternion(elements: _Bytes) -> NDArray[Any]:
+def _quaternion(elements: Bytes) -> NDArray[Any]:
     """Return unit quaternions from their three smaller components. The fourth number holds their scale, and the place
     of the largest component."""
     stored = elements.view("<i2").astype(np.int64)
@@ -60,7 +60,7 @@ def _quaternion(elements: _Bytes) -> NDArray[Any]:
     return result
 
 
-def _exponential(elements: _Bytes) -> NDArray[Any]:
+def _exponential(elements: Bytes) -> NDArray[Any]:
     """Return floating-point numbers from 8 bits of exponent above 24 bits of mantissa."""
     stored = elements.view("<i4")
     mantissa = (stored << 8) >> 8
@@ -68,7 +68,7 @@ def _exponential(elements: _Bytes) -> NDArray[Any]:
     return values
 
 
-def _color(elements: _Bytes) -> NDArray[Any]:
+def _color(elements: Bytes) -> NDArray[Any]:
     """Return RGBA from YCoCg and alpha. The highest bit of alpha shows how many bits all channels have."""
     bits = 2 * elements.shape[1]
     unsigned, signed = elements.view(f"<u{bits // 8}").astype(np.int64), elements.view(f"<i{bits // 8}")
@@ -81,7 +81,7 @@ def _color(elements: _Bytes) -> NDArray[Any]:
     return _whole(rgba * (((1 << bits) - 1) / largest[:, None]), np.dtype(f"<u{bits // 8}"))
 
 
-def _whole(values: NDArray[np.float64], dtype: np.dtype[Any]) -> NDArray[Any]:
+def _whole(values: Floats, dtype: np.dtype[Any]) -> NDArray[Any]:
     """Round numbers to a whole-number type. Numbers that are not finite become 0, others are clipped to the type's
     range."""
     bound = np.iinfo(dtype)
