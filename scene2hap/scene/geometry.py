@@ -22,6 +22,9 @@ SAME_PLACE = 1e-5
 8 um 200 m from the origin)."""
 
 
+# Which end a corner of a box has along each axis.
+_ENDS = np.indices((2, 2, 2)).reshape(3, 8).T
+
 # A point is on a triangle up to this share of its size beside it, so that rounding opens no joint between two.
 _ON_EDGE = 1e-6
 
@@ -84,6 +87,12 @@ def joined(bounds: ArrayLike) -> Bounds:
     """Return the bounds (2, n_axes) of several (n, 2, n_axes), n >= 1."""
     found = np.asarray(bounds, dtype=np.float64)
     return np.array([found[:, 0].min(axis=0), found[:, 1].max(axis=0)])
+
+
+def corners_of(bounds: Bounds) -> Floats:
+    """Return the corners (8, 3) of a box (2, 3)."""
+    corners: Floats = bounds[_ENDS, (0, 1, 2)]
+    return corners
 
 
 def distances(a: Bounds, b: Bounds) -> Floats:

@@ -23,6 +23,7 @@ from scene2hap.scene.capture.faces import planes, separates
 from scene2hap.scene.capture.protocol import Ids, Pixels, Selection
 from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.views import Camera
+from scene2hap.scene.geometry import corners_of
 
 # Step behind a passed hit, as a share of its depth and of the scene's size: some ulps of float32 (tuned).
 _STEP_OF_DEPTH, _STEP_OF_SCENE = 1e-6, 1e-6
@@ -118,8 +119,7 @@ class EmbreeRenderer:
         boxes = [self._scene.objects[k].box_m for k in selection.shown] if few else [self._scene.box_m]
         is_covered = np.zeros((camera.size_px, camera.size_px), bool)
         for box in boxes:
-            corners = np.stack(np.meshgrid(*box.T), axis=-1).reshape(-1, 3)
-            top, bottom, left, right = camera.window_of(corners)
+            top, bottom, left, right = camera.window_of(corners_of(box))
             is_covered[top:bottom, left:right] = True
         return np.flatnonzero(is_covered)
 

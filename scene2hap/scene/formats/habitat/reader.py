@@ -46,7 +46,7 @@ from scene2hap.scene import limits
 from scene2hap.scene.formats.habitat.dataset import Dataset, Kind, Template, rows_of, scale_of
 from scene2hap.scene.formats.habitat.folder import Json, read_object
 from scene2hap.scene.formats.habitat.names import Names, ObjectNames
-from scene2hap.scene.geometry import Bounds, bounds_of, joined
+from scene2hap.scene.geometry import Bounds, bounds_of, corners_of, joined
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, transform, with_own_keys
 
@@ -311,9 +311,7 @@ def _turned_box(node: AuthoredNode) -> Bounds | None:
     boxes += [box for child in node.children if (box := _turned_box(child)) is not None]
     if not boxes:
         return None
-    box = joined(boxes)
-    corners = np.array([[x, y, z] for x in box[:, 0] for y in box[:, 1] for z in box[:, 2]])
-    return bounds_of(corners @ node.matrix[:3, :3].T + node.matrix[:3, 3])
+    return bounds_of(corners_of(joined(boxes)) @ node.matrix[:3, :3].T + node.matrix[:3, 3])
 
 
 def _with_parts(file: Path) -> list[Path]:
