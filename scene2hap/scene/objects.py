@@ -32,6 +32,7 @@ VERTICAL: Mapping[UpAxis, int] = {"y": 1, "z": 2}
 """Index of the vertical coordinate for each up axis."""
 
 _LEAST_WEIGHT = 1e-30
+_MOST_NAMED = 10
 _AT_ORIGIN = Pose()
 
 
@@ -302,9 +303,6 @@ def unknown_object(object_id: object, known: Mapping[str, object]) -> str:
         return f"an object's id is {checks.described(object_id)}; it must be a text{how}, such as {some!r}."
     hint = checks.did_you_mean(object_id, known, f"There are {first_of([*map(repr, known)], _MOST_NAMED) or 'none'}.")
     return f"the scene has no object {checks.represented(object_id)}. {hint}"
-
-
-_MOST_NAMED = 10
 
 
 def with_relative_heights(objects: Sequence[SceneObject], up_axis: UpAxis) -> tuple[SceneObject, ...]:

@@ -289,6 +289,7 @@ def _mapped(roots: Sequence[AuthoredNode], names: Mapping[str, str]) -> list[Gro
             hint = checks.did_you_mean(wanted, sorted(known), "Names are those that the author wrote.")
             raise SceneError(f"group maps the node {wanted!r}, which the scene does not have. {hint}")
     objects: dict[str, Group] = {}
+    parts: dict[str, list[tuple[Matrix, Piece]]] = {}
 
     def take(node: AuthoredNode, above: Matrix, around: str | None) -> AuthoredNode:
         """Move the mapped pieces at and below `node` to their objects. Returns the node without these pieces.
@@ -302,8 +303,7 @@ def _mapped(roots: Sequence[AuthoredNode], names: Mapping[str, str]) -> list[Gro
                 for other in objects.keys() & {owner, around}:
                     objects[other] = replace(objects[other], mass_kg=None)
                 objects.setdefault(owner, Group(owner, frame, (), node.mass_kg, node.key))
-            parts = (*objects[owner].parts, *((frame, piece) for piece in node.pieces))
-            objects[owner] = replace(objects[owner], parts=parts)
+            parts.setdefault(owner, []).extend((frame, piece) for piece in node.pieces)
         children = tuple(take(child, frame, owner) for child in node.children)
         if owner is not None:
             return replace(node, pieces=(), children=())
@@ -311,4 +311,5 @@ def _mapped(roots: Sequence[AuthoredNode], names: Mapping[str, str]) -> list[Gro
         return node if is_whole else replace(node, children=children, mass_kg=None)
 
     rest = [take(root, np.eye(4), None) for root in roots]
-    return [*(group for group in objects.values() if group.parts), *group_objects(rest)]
+    found = [replace(group, parts=tuple(parts[name])) for name, group in objects.items() if parts[name]]
+    return [*found, *group_objects(rest)]
