@@ -102,7 +102,7 @@ def _preload() -> None:
     for name in (
         *commands,
         "scene2hap.scene.load",
-        "scene2hap.scene.formats.gltf",
+        "scene2hap.scene.formats.gltf.reader",
         "scene2hap.scene.formats.obj",
         "trimesh",
         "PIL",

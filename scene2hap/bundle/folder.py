@@ -49,6 +49,7 @@ from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2Ha
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.materials import lookup
 from scene2hap.scene import json as scene_json
+from scene2hap.scene.shapes import Geometry
 from scene2hap.scene.snapshot import SceneSnapshot
 
 _objects: TypeAdapter[dict[str, ObjectHaptics]] = TypeAdapter(dict[str, ObjectHaptics])
@@ -128,15 +129,18 @@ def _write(bundle: BundleContents, folder: Path, like: Path | None = None) -> No
             file.flush()
             os.fsync(file.fileno())
 
-    scene = scene_json.to_document(bundle.snapshot)
     shared: set[str] = set()
-    for item, row in zip(bundle.snapshot.objects, scene["objects"], strict=True):
-        if item.geometry.kind == "mesh":
-            name = f"meshes/{scene_json.geometry_key(item.geometry)}.ply"
-            row["geometry"] = name
-            if name not in shared:
-                shared.add(name)
-                put_bytes(name, encode_ply(item.geometry))
+
+    def geometry_field(geometry: Geometry) -> object:
+        if geometry.kind != "mesh":
+            return scene_json.plain_geometry(geometry)
+        name = f"meshes/{scene_json.geometry_key(geometry)}.ply"
+        if name not in shared:
+            shared.add(name)
+            put_bytes(name, encode_ply(geometry))
+        return name
+
+    scene = scene_json.to_document(bundle.snapshot, geometry_field)
     put("scene.json", {"format": scene_json.FORMAT, "version": scene_json.VERSION, **scene})
     put("objects.json", _objects.dump_python(dict(bundle.objects), mode="json"))
     if bundle.inferred:

@@ -17,6 +17,8 @@ Floats = NDArray[np.float64]
 Floats32 = NDArray[np.float32]
 Complex = NDArray[np.complex128]
 Ints = NDArray[np.int64]
+Ints32 = NDArray[np.int32]
+Bytes = NDArray[np.uint8]
 Indices = NDArray[np.intp]
 """Places in other arrays."""
 Bools = NDArray[np.bool_]

@@ -10,9 +10,8 @@ from collections.abc import Mapping
 from operator import mul
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Bools, Floats
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.session import HapticSession
@@ -56,7 +55,7 @@ class Changes:
         self._followed: frozenset[str] = frozenset()
         self._known: dict[str, Pose] = {}
         self._ids: tuple[str, ...] = ()
-        self._is_followed: NDArray[np.bool_] = np.empty(0, dtype=bool)
+        self._is_followed: Bools = np.empty(0, dtype=bool)
         self._positions: Floats = np.empty((0, 3))
         self._rotations: Floats = np.empty((0, 4))
 

@@ -7,6 +7,7 @@ from typing import Any, Literal
 
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls
+from scene2hap.common.counted import first_of
 from scene2hap.common.warning import warn_of
 from scene2hap.engines.link import EngineLink
 from scene2hap.errors import ConfigError
@@ -93,7 +94,7 @@ class _MuJoCo:
         for hand, part in self._hands.items():
             fixed = mujoco_contacts.out_of_reach(self._model, part, self._how["geom_groups"])
             if fixed:
-                named = ", ".join(map(repr, fixed[:_MOST_NAMED])) + (", ..." if len(fixed) > _MOST_NAMED else "")
+                named = first_of([*map(repr, fixed)], _MOST_NAMED)
                 warn_of(
                     f"MuJoCo moves neither {bodies[hand]!r} nor {named}, and finds no contacts between such bodies: "
                     f"hand {hand!r} does not feel them. Weld a free body to {bodies[hand]!r} and name that body as the "

@@ -46,12 +46,12 @@ def names_by_area(mesh: TriMesh, face_rows: NDArray[np.integer], names: Sequence
     `face_rows` : (m,) the row in `names` of each face. Faces are not counted: a round handle has more of them than the
     cabinet that it is on.
     """
-    known = list(dict.fromkeys(names))
-    if known in ([], [""]):
+    known = {name: row for row, name in enumerate(dict.fromkeys(names))}
+    if not any(known):
         return ()
     corners_m = mesh.vertices_m[mesh.faces]
     sides_m = corners_m[:, 1:] - corners_m[:, :1]
-    rows = np.array([known.index(name) for name in names])[face_rows]
+    rows = np.array([known[name] for name in names])[face_rows]
     areas_m2 = np.bincount(rows, np.linalg.norm(np.cross(sides_m[:, 0], sides_m[:, 1]), axis=1) / 2)
-    used = frozenset(rows.tolist())
-    return tuple(known[row] for row in np.argsort(-areas_m2, kind="stable").tolist() if row in used and known[row])
+    used, named = frozenset(rows.tolist()), list(known)
+    return tuple(named[row] for row in np.argsort(-areas_m2, kind="stable").tolist() if row in used and named[row])

@@ -29,7 +29,7 @@ def scene_stem(path: Path) -> str:
 
 
 def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
-    """Return the path of `uri`, a relative reference in a scene file, from the file's folder.
+    """Return the path of `uri`, a relative reference in a scene file, from the file's folder. Either slash is read.
 
     Raises: SceneError: it is no plain relative path, or leads outside `assets_root` (also through a link).
     """
@@ -37,7 +37,7 @@ def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
         parts = urlsplit(uri)
         if parts.scheme or parts.netloc:
             raise address(place, uri)
-        path = (folder / unquote(uri)).resolve()
+        path = (folder / unquote(uri).replace("\\", "/")).resolve()
         if not path.is_relative_to(assets_root.resolve()):
             raise outside(place, uri, assets_root.resolve(), path)
     return path

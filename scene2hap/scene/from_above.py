@@ -10,9 +10,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Bools, Floats, Indices
 from scene2hap.scene.geometry import counted_up, joined
 from scene2hap.scene.objects import VERTICAL
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -45,7 +44,7 @@ class TopView:
     """
 
     scene: SceneSnapshot
-    top: NDArray[np.intp]
+    top: Indices
     height_m: Floats
     low_m: Floats
     cell_m: float
@@ -110,7 +109,7 @@ class TopView:
         (left, lower), (n_rows, n_columns) = self.low_m.tolist(), self.top.shape
         return left, left + n_columns * self.cell_m, lower, lower + n_rows * self.cell_m
 
-    def points_m(self) -> tuple[NDArray[np.intp], Floats]:
+    def points_m(self) -> tuple[Indices, Floats]:
         """Return flat numbers (n_seen,) of cells with a surface, and the surface points (n_seen, 3) [m] in their
         middles."""
         cells = np.flatnonzero(self.top.ravel() != NOTHING)
@@ -121,7 +120,7 @@ class TopView:
         points[:, self.up] = self.height_m.ravel()[cells]
         return cells, points
 
-    def edges_m(self, among: NDArray[np.bool_] | None = None) -> Floats:
+    def edges_m(self, among: Bools | None = None) -> Floats:
         """Return edges (n_edges, 2, 2) [m] between cells of different objects, or around a set of cells (n_rows,
         n_columns)."""
         numbers, beside = (self.top, NOTHING) if among is None else (among.astype(np.intp), 0)
@@ -141,10 +140,10 @@ class HighestSurface:
     """
 
     def __init__(self, n_columns: int, n_rows: int) -> None:
-        self.top: NDArray[np.intp] = np.full((n_rows, n_columns), NOTHING, dtype=np.intp)
-        self.height: NDArray[np.float64] = np.full((n_rows, n_columns), -np.inf)
+        self.top: Indices = np.full((n_rows, n_columns), NOTHING, dtype=np.intp)
+        self.height: Floats = np.full((n_rows, n_columns), -np.inf)
 
-    def add(self, triangles: Floats, numbers: NDArray[np.intp], limit: float = np.inf) -> None:
+    def add(self, triangles: Floats, numbers: Indices, limit: float = np.inf) -> None:
         """Add triangles (n, 3, 3): column and row in cells, and height. Their numbers (n,) need not differ.
 
         Surface above the limit is left out. A vertical triangle covers no cell.
@@ -176,9 +175,7 @@ def _frame(bounds_m: Floats) -> tuple[Floats, Floats]:
     return (inner_low, inner_high) if is_far_larger else (low, high)
 
 
-def _surface(
-    triangles: Floats, n_columns: int, n_rows: int
-) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp], Floats]]:
+def _surface(triangles: Floats, n_columns: int, n_rows: int) -> Iterator[tuple[Indices, Indices, Floats]]:
     """Yield triangles, the cells whose middle is below them, and their height there.
 
     `triangles` (n, 3, 3) have their first two coordinates in cells. A triangle covers one run of cells in each row. To

@@ -11,6 +11,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap.common.arrays import Floats, Indices, Ints
+
 Vector = tuple[float, float, float]
 Bounds = NDArray[np.float64]
 Number = TypeVar("Number", bound=np.generic)
@@ -19,6 +21,9 @@ SAME_PLACE = 1e-5
 """Corners and surfaces this close are one, as a share of the mesh's size (assumed: 20 um at a table; float32 rounds by
 8 um 200 m from the origin)."""
 
+
+# Which end a corner of a box has along each axis.
+_ENDS = np.indices((2, 2, 2)).reshape(3, 8).T
 
 # A point is on a triangle up to this share of its size beside it, so that rounding opens no joint between two.
 _ON_EDGE = 1e-6
@@ -51,13 +56,13 @@ def cross(one: Sequence[float], other: Sequence[float]) -> Vector:
     return (b * f - c * e, c * d - a * f, a * e - b * d)
 
 
-def cross_2d(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+def cross_2d(a: Floats, b: Floats) -> Floats:
     """Return the cross products (...) of vectors (..., 2), or of the first two coordinates of longer ones."""
-    product: NDArray[np.float64] = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+    product: Floats = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
     return product
 
 
-def heights_at(points: NDArray[np.float64], triangles: NDArray[np.float64]) -> NDArray[np.float64]:
+def heights_at(points: Floats, triangles: Floats) -> Floats:
     """Return the height (n, m) of each triangle at each point (n, 2), -inf beside it or if it is vertical.
 
     Triangles (m, 3, 3) have two level coordinates, then the height.
@@ -84,14 +89,20 @@ def joined(bounds: ArrayLike) -> Bounds:
     return np.array([found[:, 0].min(axis=0), found[:, 1].max(axis=0)])
 
 
-def distances(a: Bounds, b: Bounds) -> NDArray[np.float64]:
+def corners_of(bounds: Bounds) -> Floats:
+    """Return the corners (8, 3) of a box (2, 3)."""
+    corners: Floats = bounds[_ENDS, (0, 1, 2)]
+    return corners
+
+
+def distances(a: Bounds, b: Bounds) -> Floats:
     """Return the distances (...) of boxes a (..., 2, n_axes) from boxes b, broadcast; 0 where they overlap."""
     gaps = np.maximum(np.maximum(a[..., 0, :] - b[..., 1, :], b[..., 0, :] - a[..., 1, :]), 0.0)
-    apart: NDArray[np.float64] = np.linalg.norm(gaps, axis=-1)
+    apart: Floats = np.linalg.norm(gaps, axis=-1)
     return apart
 
 
-def welded(points: NDArray[np.float64], tolerance: float) -> NDArray[np.int64]:
+def welded(points: Floats, tolerance: float) -> Ints:
     """Return a number (n,) for each of the points (n, 2 or 3), equal for points in one cell of a grid.
 
     Cells are as wide as the tolerance, at least a millionth of the points' extent along each axis. They are numbered
@@ -105,7 +116,7 @@ def welded(points: NDArray[np.float64], tolerance: float) -> NDArray[np.int64]:
     return np.unique(key, return_inverse=True)[1].astype(np.int64)
 
 
-def counted_up(counts: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def counted_up(counts: Indices) -> tuple[Indices, Indices]:
     """Return the number k of each count, `counts[k]` times, and beside it 0, 1, ... up to `counts[k]` - 1."""
     which = np.repeat(np.arange(len(counts)), counts)
     return which, np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)

@@ -12,8 +12,8 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.scene.geometry import distances
 from scene2hap.scene.hinges import HINGE_PLAY_M
 from scene2hap.scene.objects import Hinge, SceneObject
@@ -33,8 +33,8 @@ class Joint(NamedTuple):
 
     on: str
     motion: Motion
-    anchor: NDArray[np.float64] | None = None
-    axis: NDArray[np.float64] | None = None
+    anchor: Floats | None = None
+    axis: Floats | None = None
 
 
 def pivots(joints: Mapping[str, Joint], drawn: Collection[str]) -> Iterator[AuthoredPivot]:
@@ -71,9 +71,7 @@ def hinges(by_key: Mapping[str, SceneObject], pivots: Iterable[AuthoredPivot], u
     return found
 
 
-def _turning(
-    item: SceneObject, other: SceneObject, anchor_m: NDArray[np.float64], axis: NDArray[np.float64] | None
-) -> Hinge | None:
+def _turning(item: SceneObject, other: SceneObject, anchor_m: Floats, axis: Floats | None) -> Hinge | None:
     """Return the hinge of an object that turns on another; None if its pivot is far from one of the two."""
     both = (item, other)
     if axis is not None:
@@ -99,7 +97,7 @@ def _fixed(item: SceneObject, other: SceneObject) -> Hinge | None:
     return Hinge(other.id, item.pose.to_own(other.pose.to_world([middle]))[0].tolist(), middle.tolist())
 
 
-def _from_box(item: SceneObject, point: NDArray[np.float64]) -> float:
+def _from_box(item: SceneObject, point: Floats) -> float:
     """Return the distance of a point of an object's frame from its box, as a share of the box's diagonal."""
     box = item.geometry.mesh.bounds_m
     return float(distances(np.stack((point, point)), box) / np.linalg.norm(np.ptp(box, axis=0)))

@@ -8,7 +8,7 @@ docs/scene-json.md describes the format for authors of exporters.
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -47,12 +47,15 @@ _UNMEASURED = DominantSurface(Pose(), 0.0, 0.0, 0.0, ("zero-thickness",))
 
 def dump(scene: SceneData) -> str:
     """Return the scene as JSON text with a geometry table."""
-    document = to_document(scene)
     geometries: dict[str, Any] = {}
-    for item, row in zip(scene.objects, document["objects"], strict=True):
-        key = geometry_key(item.geometry)
-        geometries.setdefault(key, row["geometry"])
-        row["geometry"] = key
+
+    def key_of(geometry: Geometry) -> str:
+        key = geometry_key(geometry)
+        if key not in geometries:
+            geometries[key] = plain_geometry(geometry)
+        return key
+
+    document = to_document(scene, key_of)
     return json.dumps({"format": FORMAT, "version": VERSION, **document, "geometries": geometries}, allow_nan=False)
 
 
@@ -66,7 +69,7 @@ def parse(text: str) -> SceneData:
             "give path.read_text(), of a dictionary json.dumps(document)."
         )
     try:
-        document = read_json(text)
+        document = read_json(text.removeprefix("\ufeff"))  # Windows tools begin a text so
     except ValueError as cause:
         raise SceneError(f'not JSON: {cause}. A scene file starts with {{"format": "{FORMAT}", ...}}.') from cause
     if not isinstance(document, dict) or document.get("format") != FORMAT:
@@ -79,16 +82,24 @@ def parse(text: str) -> SceneData:
     return from_document(document)
 
 
-def to_document(scene: SceneData) -> dict[str, Any]:
-    """Return the scene as plain JSON values, each object with its geometry."""
-    hidden: Any = {"objects": {"__all__": {"appearance", "images", "material_names"}}}
+def to_document(scene: SceneData, geometry_field: Callable[[Geometry], Any]) -> dict[str, Any]:
+    """Return the scene as plain JSON values, with the field `geometry` of each object from a function."""
+    hidden: Any = {"objects": {"__all__": {"appearance", "images", "material_names", "geometry"}}}
     document: dict[str, Any] = _scene.dump_python(scene, mode="json", exclude=hidden)
     for item, row in zip(scene.objects, document["objects"], strict=True):
+        rest = {key: row.pop(key) for key in tuple(row) if key not in ("id", "name", "pose")}
+        row |= {"geometry": geometry_field(item.geometry), **rest}
         if names := material_names(item):
             row["material_names"] = list(names)
         if item.hinge is None:
             del row["hinge"]
     return document
+
+
+def plain_geometry(geometry: Geometry) -> dict[str, Any]:
+    """Return a geometry as plain JSON values."""
+    row: dict[str, Any] = _geometries[geometry.kind].dump_python(geometry, mode="json")
+    return row
 
 
 def from_document(document: dict[str, Any]) -> SceneData:
@@ -116,7 +127,6 @@ def from_document(document: dict[str, Any]) -> SceneData:
         problem = checks.first_problem(cause)
         raise SceneError(f"scene field {problem.place or '(top)'}: {problem.reason}.") from cause
     for item in scene.objects:
-        _require_bounded(item)
         _require_plausible_thickness(item)
     rows = document["objects"]
     _warn_of_slips("the scene", _SCENE_FIELDS, [document])
@@ -184,16 +194,6 @@ def _without_nulls(row: Any) -> Any:
     if not isinstance(row, dict):
         return row
     return {"surface": _UNMEASURED, **{key: value for key, value in row.items() if value is not None}}
-
-
-def _require_bounded(item: SceneObject) -> None:
-    """Bound coordinates as those of scene files are, before their products exceed the largest number."""
-    most_m = float(max(np.abs(item.geometry.mesh.bounds_m).max(), np.abs(item.pose.position_m).max()))
-    if most_m > limits.MAX_COORDINATE_M:
-        raise SceneError(
-            f"object {item.id!r} is placed or scaled beyond {limits.MAX_COORDINATE_M:g} m, at {most_m:g} m; check its "
-            "pose and its geometry."
-        )
 
 
 def _require_plausible_thickness(item: SceneObject) -> None:

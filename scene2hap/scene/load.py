@@ -18,7 +18,7 @@ from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 from scene2hap.scene.files import HABITAT_SUFFIX, decoded, is_habitat, read_bytes, scene_stem, written_first
-from scene2hap.scene.grouping.groups import Grouping, group_objects, unique_ids
+from scene2hap.scene.grouping.groups import Grouping, check_grouping, group_objects, unique_ids
 from scene2hap.scene.grouping.not_drawn import warn_of_collapsed, without_collapsed
 from scene2hap.scene.grouping.object_maker import ObjectMaker
 from scene2hap.scene.joints import hinges
@@ -64,7 +64,7 @@ def load_scene(
         folder above the scene, up to five levels, that holds `*.scene_dataset_config.json`.
     names : only for Habitat scenes, whose templates may be hashes: object names by template, or the path of such a
         table. The table is JSON that maps templates to names, or CSV with columns such as id and name. HSSD's own
-        tables are found without this parameter; see `scene2hap.scene.formats.habitat_names`.
+        tables are found without this parameter; see `scene2hap.scene.formats.habitat.names`.
 
     Returns: the scene named after the file. An object has the pose of the node that names it, without scale. Copies of
         one mesh share one TriMesh, and one instance_key if they look alike. Ids are the authored names. The second and
@@ -91,6 +91,7 @@ def load_scene(
             f"names is for Habitat scenes (NAME{HABITAT_SUFFIX}), and {path.name!r} is none. Leave it out; nodes of "
             "other files get names by group={node: name}."
         )
+    check_grouping(group)
     if assets_root is not None:
         assets_root = checks.path("assets_root", assets_root, error=SceneError)
     return _loaded(path, up_axis, unit_m, group, assets_root, names)
@@ -127,7 +128,7 @@ def _loaded(
         snapshot = _from_mjcf(path, up_axis, unit, group, root)
     else:
         if is_habitat(path):
-            from scene2hap.scene.formats.habitat import read_habitat
+            from scene2hap.scene.formats.habitat.reader import read_habitat
 
             authored = read_habitat(path, None if assets_root is None else root, names, _read)
         else:
@@ -155,7 +156,7 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
         )
     # Each reader is imported at its first use: a game that loads GLB pays for no other.
     if suffix in (".glb", ".gltf"):
-        from scene2hap.scene.formats.gltf import read_gltf
+        from scene2hap.scene.formats.gltf.reader import read_gltf
 
         return read_gltf(path, assets_root)
     if suffix in _USD_SUFFIXES:
@@ -181,7 +182,7 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
 
 
 def _from_json(path: Path, up_axis: UpAxis | None, unit_m: float | None, group: Grouping) -> SceneSnapshot:
-    if unit_m not in (None, 1.0) or not (isinstance(group, str) and group == "authored") or up_axis is not None:
+    if unit_m not in (None, 1.0) or group != "authored" or up_axis is not None:
         raise SceneError(
             "a scene in JSON states its own axis, metres and objects; leave up_axis, unit_m and group out."
         )

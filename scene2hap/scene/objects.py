@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from pydantic import InstanceOf
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.counted import first_of
 from scene2hap.common.json_fields import Real
@@ -21,7 +23,7 @@ from scene2hap.scene import limits
 from scene2hap.scene.geometry import bounds_of, frozen
 from scene2hap.scene.images import ObjectImages
 from scene2hap.scene.looks.appearance import Appearance
-from scene2hap.scene.pose import Pose, how_to_write
+from scene2hap.scene.pose import LEAST_LENGTH, UNIT_TOLERANCE, Pose, how_to_write
 from scene2hap.scene.shapes import DominantSurface, Geometry, MeshLike, geometry_of
 
 UpAxis = Literal["y", "z"]
@@ -30,6 +32,7 @@ VERTICAL: Mapping[UpAxis, int] = {"y": 1, "z": 2}
 """Index of the vertical coordinate for each up axis."""
 
 _LEAST_WEIGHT = 1e-30
+_MOST_NAMED = 10
 _AT_ORIGIN = Pose()
 
 
@@ -38,8 +41,8 @@ _AT_ORIGIN = Pose()
 class Contact:
     """A contact point of two objects, given by an engine or found from geometry. A pair may have several.
 
-    Parameters: point_m : world [m]; normal : unit, from `a` to `b`; area_m2 : of the patch that the point represents
-        [m2]; weight : from 1 (touching) to 0 (gone) [-].
+    Parameters: point_m : world [m]; normal : unit, from `a` to `b`; another length is normalised, and 0 gives None;
+        area_m2 : of the patch that the point represents [m2]; weight : from 1 (touching) to 0 (gone) [-].
     """
 
     a: str
@@ -71,7 +74,10 @@ class Contact:
         object.__setattr__(self, "point_m", point)
         if self.normal is not None:
             normal = checks.vector("normal", self.normal, "-", size=3, error=SceneError)
-            object.__setattr__(self, "normal", normal)
+            length = math.hypot(*normal)
+            if abs(length - 1.0) > UNIT_TOLERANCE:
+                normal = tuple(part / length for part in normal) if length >= LEAST_LENGTH else ()
+            object.__setattr__(self, "normal", normal or None)
         if self.area_m2 is not None:
             area = checks.number("area_m2", self.area_m2, "m2", at_least=0.0, error=SceneError)
             object.__setattr__(self, "area_m2", area)
@@ -116,8 +122,8 @@ class SceneObject:
 
     `id` is unique in the scene and stable over loads. `name` is the author's name, which many objects may share; by
     default it is the id. `geometry` is a Box or a TriMesh. A pair of vertices and faces, or an object with both, such
-    as a mesh of the package trimesh, becomes a TriMesh. `surface` is measured with y up if it is not given;
-    `SceneSnapshot.build` measures it for the scene's own up axis. `instance_key` is equal for objects of equal mesh and
+    as a mesh of the package trimesh, becomes a TriMesh. `surface` is measured with y up if it is not given; a
+    `SceneSnapshot` measures it for its own up axis. `instance_key` is equal for objects of equal mesh and
     materials. `relative_height_m` is the height of the lowest point above the lowest point of the whole scene.
     `mass_kg` is the mass from an engine or an author [kg], None if unknown. `hinge` holds the object on another, None
     if it is loose or its contacts are to be found from geometry alone. `material_names` are the authored names of
@@ -162,18 +168,21 @@ class SceneObject:
             object.__setattr__(self, key, value)
         if not isinstance(id, str):
             raise SceneError(f"id is {checks.represented(id)}; it must be a text, and every object has its own.")
-        if not isinstance(self.name, str) or not isinstance(pose, Pose):
-            which, value, wanted = ("name", name, "a text")
-            if isinstance(self.name, str):
-                which, value, wanted = ("pose", pose, f"a Pose: {how_to_write(pose)}")
-            raise SceneError(
-                f"{which} of object {checks.represented(id)} is {checks.described(value)}; it must be {wanted}. "
-                "Give what follows the id by name: SceneObject(id, pose=..., geometry=...)."
-            )
+        for key, kind, wanted in (
+            ("name", str, "a text"),
+            ("pose", Pose, f"a Pose: {how_to_write(pose)}"),
+            ("surface", DominantSurface | None, "a DominantSurface"),
+        ):
+            if not isinstance(given[key], kind):
+                raise SceneError(
+                    f"{key} of object {checks.represented(id)} is {checks.described(given[key])}; it must be {wanted}. "
+                    "Give what follows the id by name: SceneObject(id, pose=..., geometry=...)."
+                )
         object.__setattr__(self, "geometry", geometry_of(geometry, f"object {checks.represented(id)}"))
-        if surface is None:
-            object.__setattr__(self, "surface", _measured(self.geometry, _up_of(pose, "y"), is_assumed=True))
         self.__post_init__()
+        # `replace(item, geometry=...)` passes the surface of the former geometry.
+        if surface is None or (surface.assumed_for is not None and surface.assumed_for[0] != self.geometry):
+            object.__setattr__(self, "surface", _measured(self.geometry, _up_of(pose, "y"), is_assumed=True))
 
     def __post_init__(self) -> None:
         if not self.id:
@@ -182,6 +191,13 @@ class SceneObject:
             raise SceneError(
                 f"id is {checks.represented(self.id)}, with half of a character, as file names of another encoding "
                 f"have it; files hold none. Give another id, as {checks.represented(writable(self.id))}."
+            )
+        # Squares and cubes of larger coordinates lose their digits, or exceed the largest number.
+        most_m = max(self.geometry.mesh.reach_m, *map(abs, self.pose.position_m))
+        if most_m > limits.MAX_COORDINATE_M:
+            raise SceneError(
+                f"object {checks.represented(self.id)} is placed or scaled beyond {limits.MAX_COORDINATE_M:g} m, at "
+                f"{most_m:g} m; check its pose and its geometry."
             )
         height = checks.number("relative_height_m", self.relative_height_m, "m", error=SceneError)
         object.__setattr__(self, "relative_height_m", height)
@@ -223,7 +239,7 @@ class SceneObject:
         return (longer, shorter, float(edges[upright]))
 
     @cached_property
-    def bounds_m(self) -> NDArray[np.float64]:
+    def bounds_m(self) -> Floats:
         """Lowest and highest corner (2, 3) [m] in the world. Read-only."""
         return frozen(bounds_of(self.pose.to_world(self.geometry.mesh.corners_m)))
 
@@ -242,9 +258,14 @@ class SceneObject:
         return replace(self, hinge=Hinge(other.id, own, theirs))
 
 
-def measured_surface(geometry: Geometry, pose: Pose, up_axis: UpAxis) -> DominantSurface:
-    """Return the dominant surface of an object at this rotation, cached for equal meshes."""
-    return _measured(geometry, _up_of(pose, up_axis))
+def with_known_up(item: SceneObject, up_axis: UpAxis) -> SceneObject:
+    """Return an object of a scene with this up axis. A surface that was measured before the axis was known is measured
+    again where axis or pose differ."""
+    assumed_for = item.surface.assumed_for
+    if assumed_for is None:
+        return item
+    now = (item.geometry, _up_of(item.pose, up_axis))
+    return replace(item, surface=replace(item.surface) if assumed_for == now else _measured(*now))
 
 
 def _up_of(pose: Pose, up_axis: UpAxis) -> tuple[float, ...]:
@@ -255,7 +276,7 @@ def _up_of(pose: Pose, up_axis: UpAxis) -> tuple[float, ...]:
 def _measured(geometry: Geometry, up: tuple[float, ...], *, is_assumed: bool = False) -> DominantSurface:
     if is_assumed:
         surface = replace(_measured(geometry, up))  # that one may be of a scene whose up axis is known
-        object.__setattr__(surface, "is_assumed", True)
+        object.__setattr__(surface, "assumed_for", (geometry, up))
         return surface
     from scene2hap.scene.surface.dominant_surface import (
         dominant_surface,  # given or stored surfaces need no measurement
@@ -284,10 +305,7 @@ def unknown_object(object_id: object, known: Mapping[str, object]) -> str:
     return f"the scene has no object {checks.represented(object_id)}. {hint}"
 
 
-_MOST_NAMED = 10
-
-
-def with_relative_heights(objects: list[SceneObject], up_axis: UpAxis) -> tuple[SceneObject, ...]:
+def with_relative_heights(objects: Sequence[SceneObject], up_axis: UpAxis) -> tuple[SceneObject, ...]:
     """Return the objects with `relative_height_m` measured from the lowest of them."""
     up = VERTICAL[up_axis]
     bottoms = [float(item.bounds_m[0, up]) for item in objects]

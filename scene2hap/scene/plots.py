@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Bools, Floats
 from scene2hap.scene.from_above import TopView
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ EMPTY = "0.82"
 """Greys of outlines, and of surfaces without a value. Both are visible on light and dark pages."""
 
 
-def draw_values(axes: Axes, view: TopView, values: NDArray[np.float64], **options: Any) -> Any:
+def draw_values(axes: Axes, view: TopView, values: Floats, **options: Any) -> Any:
     """Draw values (n_rows, n_columns) of a view's cells as colours, in metres. NaN is not drawn.
 
     Parameters: options : of `Axes.imshow`.
@@ -36,7 +36,7 @@ def draw_values(axes: Axes, view: TopView, values: NDArray[np.float64], **option
     return image
 
 
-def draw_edges(axes: Axes, view: TopView, among: NDArray[np.bool_] | None = None, **options: Any) -> Any:
+def draw_edges(axes: Axes, view: TopView, among: Bools | None = None, **options: Any) -> Any:
     """Draw lines between objects, or around a set of cells (n_rows, n_columns). Returns: the LineCollection."""
     from matplotlib.collections import LineCollection
 

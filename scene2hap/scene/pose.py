@@ -10,10 +10,10 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from scene2hap.common import checks
-from scene2hap.common.arrays import floats
+from scene2hap.common.arrays import Floats, floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.json_fields import Real
 from scene2hap.common.warning import warn_of
@@ -77,7 +77,7 @@ class Pose:
         return pose
 
     @cached_property
-    def rotation(self) -> NDArray[np.float64]:
+    def rotation(self) -> Floats:
         """Rotation matrix (3, 3) [-], own axes in its columns. Read-only."""
         x, y, z, w = self.rotation_xyzw
         rows = [
@@ -88,19 +88,19 @@ class Pose:
         return frozen(np.array(rows))
 
     @cached_property
-    def _position(self) -> NDArray[np.float64]:
+    def _position(self) -> Floats:
         return np.array(self.position_m)
 
-    def to_world(self, points_own_m: ArrayLike) -> NDArray[np.float64]:
+    def to_world(self, points_own_m: ArrayLike) -> Floats:
         """Transform points (n, 3) [m] from the own frame to the world."""
         points = _points("points_own_m", points_own_m)
-        moved: NDArray[np.float64] = points @ self.rotation.T + self._position
+        moved: Floats = points @ self.rotation.T + self._position
         return moved
 
-    def to_own(self, points_m: ArrayLike) -> NDArray[np.float64]:
+    def to_own(self, points_m: ArrayLike) -> Floats:
         """Transform points (n, 3) [m] from the world to the own frame."""
         points = _points("points_m", points_m)
-        own: NDArray[np.float64] = (points - self._position) @ self.rotation
+        own: Floats = (points - self._position) @ self.rotation
         return own
 
     def compose(self, inner: Pose) -> Pose:
@@ -272,14 +272,14 @@ def _about(axis: int, half_rad: float) -> tuple[float, float, float, float]:
     return (found[0], found[1], found[2], found[3])
 
 
-def _points(name: str, value: ArrayLike) -> NDArray[np.float64]:
+def _points(name: str, value: ArrayLike) -> Floats:
     points = floats(name, value, "m", error=SceneError)
     if points.shape[-1:] != (3,):
         raise SceneError(f"{name} has shape {points.shape}; it must be (n, 3) [m].")
     return points
 
 
-def _quaternion(r: NDArray[np.float64]) -> tuple[float, float, float, float]:
+def _quaternion(r: Floats) -> tuple[float, float, float, float]:
     """Return the unit quaternion (x, y, z, w) of a rotation matrix, with w of at least 0. The largest component is
     computed first, to avoid cancellation.
 

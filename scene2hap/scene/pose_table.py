@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from scene2hap.common import checks
-from scene2hap.common.arrays import floats
+from scene2hap.common.arrays import Floats, Indices, floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.counted import counted
 from scene2hap.errors import SceneError
@@ -31,7 +31,7 @@ class PoseTable(Mapping[str, Pose]):
     def __init__(self, ids: Sequence[str], positions_m: ArrayLike, rotations_xyzw: ArrayLike) -> None:
         self.ids: tuple[str, ...] = checks.items("ids", ids, at_most=_MOST, error=SceneError)
         n = len(self.ids)
-        self.positions_m: NDArray[np.float64] = self._rows("positions_m", positions_m, (n, 3))
+        self.positions_m: Floats = self._rows("positions_m", positions_m, (n, 3))
         rotations = self._rows("rotations_xyzw", rotations_xyzw, (n, 4))
         x, y, z, w = rotations.T
         lengths = np.sqrt(x * x + y * y + z * z + w * w)
@@ -41,7 +41,7 @@ class PoseTable(Mapping[str, Pose]):
                 thing = self.ids[int(np.argmin(lengths))]
                 raise SceneError(f"rotations_xyzw of {thing!r} has length 0. Use (0, 0, 0, 1) for no rotation.")
             rotations /= np.where(off, lengths, 1.0)[:, None]
-        self.rotations_xyzw: NDArray[np.float64] = rotations
+        self.rotations_xyzw: Floats = rotations
         self._row: dict[str, int] | None = None
 
     def __repr__(self) -> str:
@@ -62,7 +62,7 @@ class PoseTable(Mapping[str, Pose]):
         x, y, z = self.positions_m[row].tolist()
         return Pose.of_checked((x, y, z), tuple(self.rotations_xyzw[row].tolist()))
 
-    def poses(self, rows: NDArray[np.intp]) -> dict[str, Pose]:
+    def poses(self, rows: Indices) -> dict[str, Pose]:
         """Return the poses in some rows, by id; faster than one by one."""
         x, y, z = self.positions_m[rows].T.tolist()
         qx, qy, qz, qw = self.rotations_xyzw[rows].T.tolist()
@@ -79,7 +79,7 @@ class PoseTable(Mapping[str, Pose]):
     def __len__(self) -> int:
         return len(self.ids)
 
-    def _rows(self, name: str, values: ArrayLike, shape: tuple[int, int]) -> NDArray[np.float64]:
+    def _rows(self, name: str, values: ArrayLike, shape: tuple[int, int]) -> Floats:
         rows = np.array(floats(name, values, "m" if shape[1] == 3 else "-", error=SceneError), order="C")
         if rows.shape != shape:
             raise SceneError(f"{name} has shape {rows.shape}; it must be {shape}, one row for each id.")

@@ -6,14 +6,14 @@ import hashlib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Protocol
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import PlainSerializer, PlainValidator
 
 from scene2hap.common import checks
-from scene2hap.common.arrays import floats
+from scene2hap.common.arrays import Floats, floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.json_fields import Real
 from scene2hap.errors import SceneError
@@ -125,16 +125,21 @@ class TriMesh:
         return content.hexdigest()[:16]
 
     @property
-    def corners_m(self) -> NDArray[np.float64]:
+    def corners_m(self) -> Floats:
         """The vertices (n, 3) [m] that faces use."""
         is_used = np.zeros(len(self.vertices_m), dtype=bool)  # a tenth of the time of numpy.unique
         is_used[self.faces] = True
         return self.vertices_m[is_used]
 
     @cached_property
-    def bounds_m(self) -> NDArray[np.float64]:
+    def bounds_m(self) -> Floats:
         """Lowest and highest corner (2, 3) [m] in the own frame, of the vertices that faces use. Read-only."""
         return frozen(bounds_of(self.corners_m))
+
+    @cached_property
+    def reach_m(self) -> float:
+        """The largest absolute coordinate [m], of the vertices that faces use."""
+        return float(np.abs(self.bounds_m).max())
 
 
 Geometry = Box | TriMesh
@@ -192,7 +197,9 @@ class DominantSurface:
     thickness_m: Real
     flags: tuple[SurfaceFlag, ...] = ()
     outline: Outline | None = None
-    is_assumed = False  # measured with y up, before the scene is known; no dataclass field, so that it is not stored
+    # Of a surface that was measured with y up, before the scene is known: the geometry, and the upward direction in its
+    # frame. It is no dataclass field, so that it is not stored.
+    assumed_for: ClassVar[tuple[Geometry, tuple[float, ...]] | None] = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.pose, Pose):

@@ -25,8 +25,8 @@ from scene2hap.scene.objects import (
     SceneData,
     SceneObject,
     UpAxis,
-    measured_surface,
     unknown_object,
+    with_known_up,
     with_relative_heights,
 )
 from scene2hap.scene.plausibility import Finding
@@ -82,7 +82,7 @@ class SceneSnapshot(SceneData):
         objects = checks.items("objects", self.objects, at_most=_MOST_OBJECTS, error=SceneError)
         for item in objects:
             _require_object(item)
-        object.__setattr__(self, "objects", ObjectTuple(objects))
+        object.__setattr__(self, "objects", ObjectTuple(with_known_up(item, self.up_axis) for item in objects))
         if not self.objects:
             raise SceneError(f"scene {self.name!r} has no object with a surface; nothing in it can be touched.")
         by_id = {item.id: item for item in self.objects}
@@ -123,16 +123,14 @@ class SceneSnapshot(SceneData):
             given = checks.described(objects)
             raise SceneError(f"objects is {given}; it must be a list of SceneObject, as SceneSnapshot.build([object]).")
         vertical(up_axis)
-        turned = []
+        keyed = []
         for item in objects:
             _require_object(item)
-            if up_axis != "y" and item.surface.is_assumed:
-                item = replace(item, surface=measured_surface(item.geometry, item.pose, up_axis))
-            turned.append(as_copy(item) if not item.instance_key and item.appearance is None else item)
+            keyed.append(as_copy(item) if not item.instance_key and item.appearance is None else item)
         if contacts is not None:
             contacts = checks.items("contacts", contacts, at_most=_MOST_CONTACTS, error=SceneError)
-        scene = cls(name, up_axis, tuple(turned), contacts)
-        scene = replace(scene, objects=with_relative_heights(turned, up_axis))
+        scene = cls(name, up_axis, tuple(keyed), contacts)
+        scene = replace(scene, objects=with_relative_heights(scene.objects, up_axis))
         warn_if_implausible(scene, source="python")
         return scene
 

@@ -7,14 +7,15 @@ below it. Along x, y and z they have the extent of the true shape.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from scene2hap.common.arrays import Floats, Ints32
 from scene2hap.scene.shapes import Box
 
 SIDES = 32
 """Corners around a round shape; a multiple of 4 (tuned: a mug's rim off by 0.2 mm)."""
 
-Triangles = tuple[NDArray[np.float64], NDArray[np.int32]]
+Triangles = tuple[Floats, Ints32]
 """Vertices (n, 3) float64 and faces (m, 3) int32."""
 
 
@@ -60,7 +61,7 @@ def rectangle(half_x_m: float, half_y_m: float) -> Triangles:
     return corners * [half_x_m, half_y_m, 1.0], np.array([[0, 1, 2], [0, 2, 3]], dtype=np.int32)
 
 
-def terrain(heights_m: NDArray[np.float64], half_x_m: float, half_y_m: float) -> Triangles:
+def terrain(heights_m: Floats, half_x_m: float, half_y_m: float) -> Triangles:
     """Return a sheet of heights (n_rows, n_columns) over the x-y plane, rows along y, facing up."""
     n_rows, n_columns = heights_m.shape
     y, x = np.meshgrid(
@@ -72,7 +73,7 @@ def terrain(heights_m: NDArray[np.float64], half_x_m: float, half_y_m: float) ->
     return np.stack((x, y, heights_m), axis=-1).reshape(-1, 3), faces
 
 
-def _turned(radii: NDArray[np.float64], heights: NDArray[np.float64], bottom: float, top: float) -> Triangles:
+def _turned(radii: Floats, heights: Floats, bottom: float, top: float) -> Triangles:
     """Return the surface of a profile rotated about z: rings of radii (k,) at rising heights (k,) between two tips."""
     k, angles = len(radii), np.arange(SIDES) * (2 * np.pi / SIDES)
     rings = np.stack(

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap.common.arrays import Floats, Ints, Ints32
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.looks.appearance import Appearance
 from scene2hap.scene.objects import UpAxis
@@ -28,8 +29,8 @@ class Piece:
     """
 
     key: Hashable
-    vertices: NDArray[np.float64]
-    faces: NDArray[np.int32]
+    vertices: Floats
+    faces: Ints32
     material: str = ""
     appearance: Appearance | None = None
     is_made: bool = False
@@ -70,7 +71,7 @@ class Piece:
         return cls(key, compact, renumbered.reshape(-1, 3).astype(np.int32), material)
 
 
-def _used(corners: NDArray[np.integer], n_points: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _used(corners: NDArray[np.integer], n_points: int) -> tuple[Ints, Ints]:
     """Return the vertices that corners use, in order, and the corners as indices of these vertices.
 
     The time grows with the corners, not with the table: thousands of pieces may share one table of vertices.
@@ -127,8 +128,8 @@ class AuthoredPivot:
 
     key: str
     on: str
-    anchor: NDArray[np.float64] | None = None
-    axis: NDArray[np.float64] | None = None
+    anchor: Floats | None = None
+    axis: Floats | None = None
 
 
 @dataclass(frozen=True)
@@ -156,7 +157,7 @@ class AuthoredScene:
         return self.unit_m
 
 
-def transform(linear: NDArray[np.float64], position: ArrayLike) -> Matrix:
+def transform(linear: Floats, position: ArrayLike) -> Matrix:
     """Return the (4, 4) matrix of a linear map (3, 3) and a position (3,)."""
     matrix: Matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = linear, position

@@ -20,7 +20,7 @@ from scene2hap.errors import ConfigError, SceneError, unwritable
 from scene2hap.llm.chain.config import InferenceConfig
 from scene2hap.llm.wrappers import identity
 from scene2hap.scene.files import is_habitat, read_bytes
-from scene2hap.scene.formats.habitat import referenced_files
+from scene2hap.scene.formats.habitat.reader import referenced_files
 
 WORK, REPORT = ".bake-many", "report.json"
 """The folder beside the bundles for records and drafts, and the file with the report of the last run."""

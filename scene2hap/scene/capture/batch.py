@@ -18,7 +18,7 @@ from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.lazy_pictures import CaptureStats, LazyPictures
 from scene2hap.scene.capture.protocol import RendererFactory, made_renderer
 from scene2hap.scene.capture.render_scene import RenderScene
-from scene2hap.scene.capture.shot_rendering import Photographer
+from scene2hap.scene.capture.shot_rendering import ShotRenderer
 from scene2hap.scene.images import ImageSet, Shot
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -95,7 +95,7 @@ def _shared(pictures: LazyPictures, wanted: list[Shot], others: int) -> Iterator
         ) from cause
 
 
-_photographer: Photographer | None = None
+_shot_renderer: ShotRenderer | None = None
 
 
 @contextmanager
@@ -108,11 +108,11 @@ def _written(setting: tuple[RenderScene, CaptureConfig, RendererFactory, tuple[i
 
 
 def _set_up(setting: Path) -> None:
-    global _photographer
+    global _shot_renderer
     render_scene, config, factory, below = pickle.loads(setting.read_bytes())
-    _photographer = Photographer(render_scene, made_renderer(factory, render_scene, config.antialias), config, below)
+    _shot_renderer = ShotRenderer(render_scene, made_renderer(factory, render_scene, config.antialias), config, below)
 
 
 def _take(shots: list[Shot]) -> list[tuple[Shot, bytes]]:
-    assert _photographer is not None, "the pool sets every worker up before it works"
-    return [(shot, _photographer.take(shot)) for shot in shots]
+    assert _shot_renderer is not None, "the pool sets every worker up before it works"
+    return [(shot, _shot_renderer.render(shot)) for shot in shots]

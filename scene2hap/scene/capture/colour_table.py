@@ -12,13 +12,10 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image
 
-from scene2hap.common.arrays import Floats32
+from scene2hap.common.arrays import Bools, Bytes, Floats, Floats32, Ints32
 from scene2hap.scene.looks.appearance import FaceMaterial
-
-Ints = NDArray[np.int32]
 
 BACKGROUND_RGB = (190, 194, 200)
 """Background: light enough for black objects, dark enough for white ones (assumed)."""
@@ -37,7 +34,7 @@ class PaletteBuilder:
     """Collector of materials, each once; `keys` are digests of the rows' content."""
 
     keys: list[str] = field(default_factory=list)
-    _rows: list[tuple[tuple[float, float, float], NDArray[np.uint8], bool]] = field(default_factory=list)
+    _rows: list[tuple[tuple[float, float, float], Bytes, bool]] = field(default_factory=list)
     _index: dict[str, int] = field(default_factory=dict)
     _known: dict[int, tuple[int, FaceMaterial]] = field(default_factory=dict)
 
@@ -83,33 +80,33 @@ class Palette:
     """
 
     rgb: Floats32
-    texels: NDArray[np.uint8]
-    start: Ints
-    width: Ints
-    height: Ints
-    is_cutout: NDArray[np.bool_]
+    texels: Bytes
+    start: Ints32
+    width: Ints32
+    height: Ints32
+    is_cutout: Bools
 
-    def texel(self, material: Ints, uv: Floats32) -> Ints:
+    def texel(self, material: Ints32, uv: Floats32) -> Ints32:
         """Return the index in `texels` of the texel nearest to uv (n, 2) for materials (n,)."""
         width, height = self.width.take(material), self.height.take(material)
         # Broken files contain NaN coordinates; any texel will do for them.
         u, v = np.nan_to_num(uv - np.floor(uv), copy=False).T
         column = np.minimum((u * width).astype(np.int32), width - 1)
         row = np.minimum((v * height).astype(np.int32), height - 1)
-        where: Ints = self.start.take(material) + row * width + column
+        where: Ints32 = self.start.take(material) + row * width + column
         return where
 
-    def pattern(self, material: Ints, uv: Floats32) -> Floats32:
+    def pattern(self, material: Ints32, uv: Floats32) -> Floats32:
         """Return the textures' factors of the colours (n, 3), 0..1."""
         return self.texels.take(self.texel(material, uv), axis=0)[:, :3] * np.float32(1 / 255)
 
     @cached_property
-    def is_patterned(self) -> NDArray[np.bool_]:
+    def is_patterned(self) -> Bools:
         """Mask of the rows with a texture."""
         return self.width * self.height > 1
 
 
-def light(normals: Floats32, forward: NDArray[np.float64], up: NDArray[np.float64]) -> Floats32:
+def light(normals: Floats32, forward: Floats, up: Floats) -> Floats32:
     """Return the brightness (n,) of faces with unit normals (n, 3), looking along `forward`, 0..1."""
     along = normals @ forward.astype(np.float32)
     upward = -np.sign(along) * (normals @ up.astype(np.float32))
@@ -124,13 +121,13 @@ def neutral(key: str) -> FaceMaterial:
     return FaceMaterial((red, green, blue, 1.0))
 
 
-def _rgba(texture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+def _rgba(texture: Bytes) -> Bytes:
     if texture.shape[2] == 4:
         return texture
     return np.dstack((texture, np.full(texture.shape[:2], 255, np.uint8)))
 
 
-def _shrunk(texels: NDArray[np.uint8]) -> NDArray[np.uint8]:
+def _shrunk(texels: Bytes) -> Bytes:
     height, width = texels.shape[:2]
     if max(height, width) <= _TEXTURE_PX:
         return texels

@@ -25,17 +25,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Bools, Floats
 from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.protocol import Ids, Renderer, Selection
 from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.surroundings import containers, near, shells
 from scene2hap.scene.capture.views import Camera
 from scene2hap.scene.geometry import Vector, vector
-
-Mask = NDArray[np.bool_]
 
 _GRID_PX = 64
 """Rays along each side of the picture, or of the target's frame, that find hiding objects (tuned: 1 ms a view)."""
@@ -122,7 +119,7 @@ class _Aim:
         self._culler, self._target, self._close = culler, target, close
         self.focus_m = vector(culler.scene.objects[target].box_m.mean(axis=0))
         self.is_target = self._ids(frozenset({target})) == target
-        self._masks: dict[tuple[int, bool], Mask] = {}
+        self._masks: dict[tuple[int, bool], Bools] = {}
 
     def blockers(self, opened: frozenset[int]) -> frozenset[int]:
         """Return all objects between the eye and the silhouette, found layer by layer."""
@@ -136,7 +133,7 @@ class _Aim:
             found |= layer
         return found
 
-    def hidden_by(self, number: int, is_opened: bool) -> Mask:
+    def hidden_by(self, number: int, is_opened: bool) -> Bools:
         """Return the part of the silhouette that one object alone hides."""
         key = (number, is_opened)
         if key not in self._masks:

@@ -16,17 +16,14 @@ from typing import Any
 import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
-from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats32, Ints
+from scene2hap.common.arrays import Bools, Bytes, Floats, Floats32, Ints
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB, light
 from scene2hap.scene.capture.faces import planes, separates
 from scene2hap.scene.capture.protocol import Ids, Pixels, Selection
 from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.views import Camera
-
-Flags = NDArray[np.bool_]
-Levels = NDArray[np.uint8]
+from scene2hap.scene.geometry import corners_of
 
 # Step behind a passed hit, as a share of its depth and of the scene's size: some ulps of float32 (tuned).
 _STEP_OF_DEPTH, _STEP_OF_SCENE = 1e-6, 1e-6
@@ -122,8 +119,7 @@ class EmbreeRenderer:
         boxes = [self._scene.objects[k].box_m for k in selection.shown] if few else [self._scene.box_m]
         is_covered = np.zeros((camera.size_px, camera.size_px), bool)
         for box in boxes:
-            corners = np.stack(np.meshgrid(*box.T), axis=-1).reshape(-1, 3)
-            top, bottom, left, right = camera.window_of(corners)
+            top, bottom, left, right = camera.window_of(corners_of(box))
             is_covered[top:bottom, left:right] = True
         return np.flatnonzero(is_covered)
 
@@ -141,7 +137,7 @@ class EmbreeRenderer:
         found = [self._first_hits(tree, camera, directions, passed) for tree in trees]
         return _nearest(found) if found else _nothing(len(directions))
 
-    def _first_hits(self, tree: _Tree, camera: Camera, directions: Floats32, passed: Flags | None) -> _Hits:
+    def _first_hits(self, tree: _Tree, camera: Camera, directions: Floats32, passed: Bools | None) -> _Hits:
         """Return the first hits that are not passed."""
         eye = camera.eye_m.astype(np.float32)
         if len(self._origins) < len(directions) or (self._origins[:1] != eye).any():
@@ -161,7 +157,7 @@ class EmbreeRenderer:
         hits.triangle[rays] = -1
         return hits
 
-    def _is_passed(self, hits: _Hits, passed: Flags | None) -> Flags:
+    def _is_passed(self, hits: _Hits, passed: Bools | None) -> Bools:
         """Return a mask of the rays to continue: their hit is not shown, or is in a hole of a texture."""
         triangle = hits.triangle
         is_passed = np.zeros(len(triangle), bool) if passed is None else passed.take(triangle)
@@ -172,7 +168,7 @@ class EmbreeRenderer:
             is_passed[holed] = palette.texels[texel, 3] < 128
         return is_passed
 
-    def _passed(self, camera: Camera, selection: Selection) -> Flags | None:
+    def _passed(self, camera: Camera, selection: Selection) -> Bools | None:
         """Return a mask of the triangles that the selection hides; None if it shows all. The last entry is for no
         triangle."""
         if not selection.opened and selection.shown == self._scene.everyone:
@@ -185,7 +181,7 @@ class EmbreeRenderer:
             passed[own] = separates(self._planes[own], camera.eye_m, np.asarray(selection.focus_m))
         return passed
 
-    def _colors(self, camera: Camera, hits: _Hits) -> NDArray[np.uint8]:
+    def _colors(self, camera: Camera, hits: _Hits) -> Bytes:
         """Return the colour of each ray."""
         # The light comes along the view, so each triangle has one brightness per view. Only triangles that are hit get
         # a colour, since a picture shows few triangles of a large scene. The last row is for no triangle.
@@ -218,16 +214,18 @@ class EmbreeRenderer:
         return ids.reshape(camera.size_px, camera.size_px)
 
     def _tree(self, objects: frozenset[int]) -> _Tree:
-        """Return the tree over whole objects, built at the first use."""
-        if objects not in self._trees:
+        """Return the tree over whole objects, built at the first use. Of those over several, the last used are kept."""
+        tree = self._trees.pop(objects, None)
+        if tree is None:
             large = [known for known in self._trees if len(known) > 1]
             if len(objects) > 1 and len(large) >= _LARGE_TREES:
                 del self._trees[large[0]]
-            self._trees[objects] = self._built(np.flatnonzero(np.isin(self._object_of, list(objects))))
-        return self._trees[objects]
+            tree = self._built(np.flatnonzero(np.isin(self._object_of, list(objects))))
+        self._trees[objects] = tree  # at the end: the first is the one that was not used for the longest time
+        return tree
 
     def _faces_left(
-        self, objects: frozenset[int], camera: Camera, selection: Selection, passed: Flags | None
+        self, objects: frozenset[int], camera: Camera, selection: Selection, passed: Bools | None
     ) -> list[_Tree]:
         """Return a tree over the visible faces of opened objects. The last one is cached, since a view needs it several
         times."""
@@ -245,7 +243,7 @@ class EmbreeRenderer:
         return _Tree(scene, np.append(numbers, -1))
 
     @cached_property
-    def _planes(self) -> NDArray[np.float64]:
+    def _planes(self) -> Floats:
         return planes(self._corners)
 
     @cached_property
@@ -270,7 +268,7 @@ def _nearest(found: list[_Hits]) -> _Hits:
     return best
 
 
-def _edges(picture: Pixels) -> Flags:
+def _edges(picture: Pixels) -> Bools:
     """Return a mask of pixels that differ visibly from their right or lower neighbour, and of these neighbours."""
     is_edge = np.zeros(picture.shape[:2], bool)
     across, down = is_edge[:, 1:].copy(), is_edge[1:].copy()
@@ -285,5 +283,5 @@ def _edges(picture: Pixels) -> Flags:
     return is_edge
 
 
-def _distance(one: Levels, other: Levels) -> Levels:
+def _distance(one: Bytes, other: Bytes) -> Bytes:
     return np.maximum(one, other) - np.minimum(one, other)

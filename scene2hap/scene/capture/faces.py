@@ -1,20 +1,10 @@
-"""Properties of single triangles."""
+"""The planes of triangles, and which of them can hide a point."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats, Floats32
-from scene2hap.scene.capture.views import Camera
-
-Flags = NDArray[np.bool_]
-
-# Assumed error of coordinates in single precision [px]. Triangles that are wrongly left out because of it are slivers.
-_BLUR_PX = np.float32(0.05)
-_LEAST_DEPTH_M = np.float32(1e-9)
+from scene2hap.common.arrays import Bools, Floats, Floats32
 
 
 def planes(triangles_m: Floats32) -> Floats:
@@ -27,60 +17,10 @@ def planes(triangles_m: Floats32) -> Floats:
     return np.column_stack((normals, np.einsum("ij,ij->i", normals, a)))
 
 
-def separates(planes_m: Floats, eye_m: Floats, focus_m: Floats) -> NDArray[np.bool_]:
+def separates(planes_m: Floats, eye_m: Floats, focus_m: Floats) -> Bools:
     """Return a mask of the planes (m, 4) that separate eye and focus. Only a face on such a plane can hide the
     focus."""
     of_eye = planes_m[:, :3] @ eye_m - planes_m[:, 3]
     of_focus = planes_m[:, :3] @ focus_m - planes_m[:, 3]
-    is_between: NDArray[np.bool_] = of_eye * of_focus < 0
+    is_between: Bools = of_eye * of_focus < 0
     return is_between
-
-
-@dataclass(frozen=True, eq=False)
-class Extents:
-    """Bounds of projected triangles: `low`, `high` (2, n) right and down at depth 1 [-], valid if `is_ahead`.
-
-    `is_cut` : triangles that extend behind the eye's plane, and have no bounds.
-    """
-
-    low: Floats32
-    high: Floats32
-    is_ahead: Flags
-    is_cut: Flags
-
-
-def extents(by_axis_m: Floats32, camera: Camera) -> Extents:
-    """Return the bounds of triangles (3 axes, 3 corners, n), for all cameras with this camera's eye and axes."""
-    right, up, forward = camera.axes
-    axes = np.stack((right, -up, forward))
-    offsets = (axes @ camera.eye_m).astype(np.float32)
-    placed = axes.astype(np.float32) @ by_axis_m.reshape(3, -1) - offsets[:, None]
-    across, down, depth = placed.reshape(by_axis_m.shape)
-    nearest = depth.min(axis=0)
-    is_ahead = nearest > 0
-    is_cut = ~is_ahead & (depth.max(axis=0) > 0)
-    np.maximum(depth, _LEAST_DEPTH_M, out=depth)
-    np.reciprocal(depth, out=depth)
-    across *= depth
-    down *= depth
-    low, high = (np.stack((pick(across, axis=0), pick(down, axis=0))) for pick in (np.min, np.max))
-    return Extents(low, high, is_ahead, is_cut)
-
-
-def in_view(seen: Extents, camera: Camera) -> Flags:
-    """Return a mask of the triangles (n,) that can colour a pixel if corners are rounded down to pixels
-    (p3tinydisplay).
-
-    Triangles behind the eye or beside the picture are left out, and triangles whose corners all are in one row or
-    column of pixels. The latter are most triangles of a finely meshed scene.
-    """
-    # p3tinydisplay scales so that the picture's last half pixel is never reached.
-    edge = np.float32(camera.size_px - 0.5)
-    scale = edge / np.float32(2 * camera.half)
-    visible = seen.is_ahead
-    centre_right, centre_up = camera.centre.astype(np.float32)
-    for low, high, centre in zip(seen.low, seen.high, (centre_right, -centre_up), strict=True):
-        first = np.floor(np.clip((low - centre) * scale + (edge / 2 - _BLUR_PX), -1, camera.size_px))
-        last = np.floor(np.clip((high - centre) * scale + (edge / 2 + _BLUR_PX), -1, camera.size_px))
-        visible = visible & (first < last)
-    return visible | seen.is_cut

@@ -12,7 +12,7 @@ from scene2hap.scene.capture.cache import MEMORY, FolderCache
 from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.protocol import RendererFactory, made_renderer
 from scene2hap.scene.capture.render_scene import RenderScene
-from scene2hap.scene.capture.shot_rendering import Photographer
+from scene2hap.scene.capture.shot_rendering import ShotRenderer
 from scene2hap.scene.capture.surroundings import Copies, holders, supports
 from scene2hap.scene.images import Shot
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -56,7 +56,7 @@ class LazyPictures:
         with self._lock:
             picture = self.find(shot)
             if picture is None:
-                picture = self._photographer.take(shot)
+                picture = self._shot_renderer.render(shot)
                 self.keep(shot, picture)
             return picture
 
@@ -117,9 +117,9 @@ class LazyPictures:
         return supports(self.render_scene)
 
     @cached_property
-    def _photographer(self) -> Photographer:
+    def _shot_renderer(self) -> ShotRenderer:
         renderer = made_renderer(self.factory, self.render_scene, self.config.antialias)
-        return Photographer(self.render_scene, renderer, self.config, self.below)
+        return ShotRenderer(self.render_scene, renderer, self.config, self.below)
 
     def _key(self, shot: Shot) -> str:
         """Return a digest of all inputs of the picture; for an isolated image, without the rest of the scene."""

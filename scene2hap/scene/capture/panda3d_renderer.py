@@ -11,18 +11,16 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image
 
-from scene2hap.common.arrays import Floats, Ints
+from scene2hap.common.arrays import Bytes, Floats, Ints
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB, light
-from scene2hap.scene.capture.faces import Extents, extents, in_view, planes, separates
+from scene2hap.scene.capture.faces import planes, separates
+from scene2hap.scene.capture.panda3d_in_view import Extents, extents, in_view
 from scene2hap.scene.capture.panda3d_screen import Screen, textured
 from scene2hap.scene.capture.protocol import Ids, Pixels, Selection
 from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.views import Camera
-
-Bytes = NDArray[np.uint8]
 
 # Objects are encoded as digits in this base, plus one, since zero is the background. Textures multiply by 255 / 256 and
 # round down, so one more is added to a digit that is drawn with a texture.

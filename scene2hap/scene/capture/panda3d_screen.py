@@ -7,15 +7,12 @@ from typing import Any
 from weakref import finalize
 
 import numpy as np
-from numpy.typing import NDArray
 from panda3d import core
 from PIL import Image
 
-from scene2hap.common.arrays import Floats32
+from scene2hap.common.arrays import Bytes, Floats32
 from scene2hap.errors import BackendUnavailable
 from scene2hap.scene.capture.views import Camera
-
-Bytes = NDArray[np.uint8]
 
 # Depth range as shares of the scene's diagonal. The nearer the range begins, the better this rasteriser resolves depths
 # (tuned: from 0.01 on, a carpet 1 mm over the floor is lost).

@@ -5,9 +5,9 @@ from __future__ import annotations
 from io import BytesIO
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
+from scene2hap.common.arrays import Bools, Bytes, Floats
 from scene2hap.errors import ConfigError
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
 from scene2hap.scene.capture.fonts import lettering
@@ -94,7 +94,7 @@ def _draw_scale(draw: ImageDraw.ImageDraw, px_per_m: float, width_px: int) -> No
     _write(draw, (left, middle - 13), f"{length_m:g} m", 13)
 
 
-def _outlines(render_scene: RenderScene, highest: HighestSurface) -> NDArray[np.bool_]:
+def _outlines(render_scene: RenderScene, highest: HighestSurface) -> Bools:
     """Return the pixels whose right or lower neighbour shows another object. White things on white would be unseen."""
     counts = [len(item.triangles_m) for item in render_scene.objects]
     owner = np.append(np.repeat(np.arange(len(counts)), counts), NOTHING)[highest.top]
@@ -109,7 +109,7 @@ def _write(draw: ImageDraw.ImageDraw, corner: tuple[float, float], text: str, si
     draw.text(corner, shown, fill=_INK, font=font)
 
 
-def _colors(render_scene: RenderScene, triangles: NDArray[np.float64], up: NDArray[np.float64]) -> NDArray[np.uint8]:
+def _colors(render_scene: RenderScene, triangles: Floats, up: Floats) -> Bytes:
     """Return one colour (n, 3) per triangle of a scene: its paint in the middle, darker the steeper the triangle is."""
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     lengths = np.maximum(np.linalg.norm(normals, axis=1), 1e-30)
@@ -118,15 +118,15 @@ def _colors(render_scene: RenderScene, triangles: NDArray[np.float64], up: NDArr
     paint = [
         palette.rgb[one.material] * palette.pattern(one.material, one.uv.mean(axis=1)) for one in render_scene.objects
     ]
-    colors: NDArray[np.uint8] = (np.concatenate(paint) * (255 * light[:, None])).astype(np.uint8)
+    colors: Bytes = (np.concatenate(paint) * (255 * light[:, None])).astype(np.uint8)
     return colors
 
 
 def _write_names(
     draw: ImageDraw.ImageDraw,
     render_scene: RenderScene,
-    to_plan: NDArray[np.float64],
-    origin: NDArray[np.float64],
+    to_plan: Floats,
+    origin: Floats,
     scale: float,
     size_px: tuple[int, int],
 ) -> None:

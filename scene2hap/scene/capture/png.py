@@ -14,7 +14,8 @@ import zlib
 
 import numpy as np
 from isal import isal_zlib
-from numpy.typing import NDArray
+
+from scene2hap.common.arrays import Bytes
 
 PNG_SIGNATURE, PNG_END = b"\x89PNG\r\n\x1a\n", b"IEND\xaeB\x60\x82"
 """First bytes of every PNG file, and last bytes of a complete one."""
@@ -23,7 +24,7 @@ _FORM = (8, 2, 0, 0, 0)
 _UP = 2
 
 
-def png(picture: NDArray[np.uint8]) -> bytes:
+def png(picture: Bytes) -> bytes:
     """Return pixels (height, width, 3), sRGB, as a PNG file."""
     height, width, _ = picture.shape
     flat = picture.reshape(height, 3 * width)

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats32
+from scene2hap.common.arrays import Floats, Floats32, Ints32
 from scene2hap.errors import SceneError
 from scene2hap.scene.capture.colour_table import Palette, PaletteBuilder, neutral
 from scene2hap.scene.capture.views import axes_of
@@ -18,9 +17,6 @@ from scene2hap.scene.geometry import bounds_of, joined, vector
 from scene2hap.scene.looks.appearance import Appearance
 from scene2hap.scene.objects import SceneObject, UpAxis
 from scene2hap.scene.snapshot import SceneSnapshot
-
-Ints = NDArray[np.int32]
-Vector = NDArray[np.float64]
 
 # Distance by which faces of objects are moved inwards, as a share of the scene's diagonal: 0.03 mm in a room of 10 m.
 # It is far below a pixel, and larger than the errors of float32 and of a ray's step.
@@ -36,17 +32,17 @@ class RenderObject:
 
     id: str
     triangles_m: Floats32
-    material: Ints
+    material: Ints32
     uv: Floats32
     digest: str
 
     @cached_property
-    def box_m(self) -> Vector:
+    def box_m(self) -> Floats:
         """Lowest and highest corner (2, 3) [m]."""
         return bounds_of(self.triangles_m.reshape(-1, 3))
 
     @cached_property
-    def points_m(self) -> Vector:
+    def points_m(self) -> Floats:
         """All corners (n, 3) [m], each once."""
         # Rows as plain bytes, which numpy sorts three times faster.
         corners = np.ascontiguousarray(self.triangles_m).reshape(-1, 3)
@@ -93,12 +89,12 @@ class RenderScene:
         return frozenset(range(len(self.objects)))
 
     @cached_property
-    def boxes_m(self) -> Vector:
+    def boxes_m(self) -> Floats:
         """Lowest and highest corner (n, 2, 3) [m] of each object."""
         return np.array([item.box_m for item in self.objects])
 
     @cached_property
-    def box_m(self) -> Vector:
+    def box_m(self) -> Floats:
         """Lowest and highest corner (2, 3) [m] of all objects."""
         return joined(self.boxes_m)
 
@@ -108,9 +104,9 @@ class RenderScene:
         return float(np.linalg.norm(np.ptp(self.box_m, axis=0)))
 
     @property
-    def up(self) -> Vector:
+    def up(self) -> Floats:
         """The unit vector (3,) that points up."""
-        up: Vector = axes_of(self.up_axis)[1]
+        up: Floats = axes_of(self.up_axis)[1]
         return up
 
     @cached_property
@@ -122,7 +118,7 @@ class RenderScene:
         return _named(parts)
 
 
-def _render_object(item: SceneObject, origin: Vector, inset_m: float, palette: PaletteBuilder) -> RenderObject:
+def _render_object(item: SceneObject, origin: Floats, inset_m: float, palette: PaletteBuilder) -> RenderObject:
     mesh = item.geometry.mesh
     corners = _drawn_in(item.pose.to_world(mesh.vertices_m) - origin, item.bounds_m - origin, inset_m)
     looks = item.appearance
@@ -142,7 +138,7 @@ def _render_object(item: SceneObject, origin: Vector, inset_m: float, palette: P
     return RenderObject(item.id, corners[mesh.faces], material, uv, digest)
 
 
-def _drawn_in(corners_m: Vector, box_m: Vector, inset_m: float) -> Floats32:
+def _drawn_in(corners_m: Floats, box_m: Floats, inset_m: float) -> Floats32:
     """Scale corners (n, 3) about their box's middle, so that its faces move in by the inset, at most a tenth of its
     size.
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Bools
 from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.culling import Culler
 from scene2hap.scene.capture.png import png
@@ -16,16 +16,14 @@ from scene2hap.scene.capture.render_scene import RenderScene
 from scene2hap.scene.capture.views import Camera, frame
 from scene2hap.scene.images import Shot
 
-Mask = NDArray[np.bool_]
-
 # Share of the frame that a whole scene fills, and least width of a context image relative to its target (assumed).
 _SCENE_FILL = 0.95
 _LEAST_FACTOR = 1.25
 
 
 @dataclass(frozen=True, eq=False)
-class Photographer:
-    """Producer of pictures of a `RenderScene`; equal input gives equal bytes. `below` : the scene's `supports`."""
+class ShotRenderer:
+    """Renderer of the shots of a `RenderScene`; equal input gives equal bytes. `below` : the scene's `supports`."""
 
     scene: RenderScene
     renderer: Renderer
@@ -54,7 +52,7 @@ class Photographer:
         wide = close.widened(min(config.context_factor, widest))
         return wide, self.culler.around(target, close, wide)
 
-    def take(self, shot: Shot) -> bytes:
+    def render(self, shot: Shot) -> bytes:
         """Return the picture as a PNG file."""
         camera, selection = self.aim(shot)
         picture, ids = drawn(self.renderer, camera, selection)
@@ -64,13 +62,13 @@ class Photographer:
         return png(picture)
 
 
-def mark(picture: Pixels, is_target: Mask, width_px: int, rgb: tuple[int, int, int]) -> None:
+def mark(picture: Pixels, is_target: Bools, width_px: int, rgb: tuple[int, int, int]) -> None:
     """Draw the target's outline into the picture, in place: all pixels within `width_px` of the target."""
     near = _neighbourhood(is_target, width_px)
     picture[near][_rim(is_target[near], width_px)] = rgb
 
 
-def _neighbourhood(is_target: Mask, width_px: int) -> tuple[slice, slice]:
+def _neighbourhood(is_target: Bools, width_px: int) -> tuple[slice, slice]:
     """Return rows and columns that contain the outline: a small part of most pictures."""
     rows, columns = np.flatnonzero(is_target.any(axis=1)), np.flatnonzero(is_target.any(axis=0))
     if not len(rows):
@@ -81,7 +79,7 @@ def _neighbourhood(is_target: Mask, width_px: int) -> tuple[slice, slice]:
     )
 
 
-def _rim(is_target: Mask, width_px: int) -> Mask:
+def _rim(is_target: Bools, width_px: int) -> Bools:
     """Return the dilation of the target by a disc, without the target; twenty times as fast as scipy's."""
     height, width = is_target.shape
     padded = np.pad(is_target, width_px)

@@ -12,9 +12,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Floats, Floats32, Ints
 from scene2hap.scene.geometry import bounds_of
 from scene2hap.scene.objects import UpAxis
 
@@ -33,7 +32,7 @@ class Camera:
     half: float
     size_px: int
 
-    def directions(self, pixels: NDArray[np.int64], offset_px: tuple[float, float] = (0.0, 0.0)) -> NDArray[np.float32]:
+    def directions(self, pixels: Ints, offset_px: tuple[float, float] = (0.0, 0.0)) -> Floats32:
         """Return directions (n, 3) of the rays through pixels, numbered row by row, scaled so that a step of 1 is depth
         1.
 
@@ -45,7 +44,7 @@ class Camera:
         columns = np.outer(self.centre[0] + steps + offset_px[0] * step, right)
         rows = np.outer(self.centre[1] - steps - offset_px[1] * step, up) + forward
         row, column = np.divmod(pixels, self.size_px)
-        directions: NDArray[np.float32] = columns.astype(np.float32).take(column, axis=0)
+        directions: Floats32 = columns.astype(np.float32).take(column, axis=0)
         directions += rows.astype(np.float32).take(row, axis=0)
         return directions
 

@@ -58,7 +58,8 @@ def snapshot(
     Parameters:
     model, data : `mujoco.MjModel` and `mujoco.MjData`.
     name : of the scene; None means the model's.
-    geom_groups : the numbers of the geom groups that are drawn; None draws geoms by rule 3 of this module.
+    geom_groups : the numbers of the geom groups that are drawn; None draws geoms by rule 3 of
+        `mujoco_objects`.
     contacts : None finds contacts from geometry; "engine" takes `data.contact`. MuJoCo has no contacts between bodies
         that cannot move against each other, such as a kettle welded to its stove.
     masses : None leaves them to inference; "engine" takes `model.body_mass`. Use "engine" only if the model's author

@@ -13,8 +13,8 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Bytes, Floats, Floats32, Ints32
 from scene2hap.scene import limits, solids
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.pose import Pose
@@ -47,7 +47,7 @@ class GeomReader:
         self.model = model
         self._colours = colours_rgba(model)
         self._materials: dict[tuple[object, ...], FaceMaterial] = {}
-        self._textures: dict[int, NDArray[np.uint8]] = {}
+        self._textures: dict[int, Bytes] = {}
         self._drawn = limits.Budget(
             "the triangles of its geoms",
             _FREE_TRIANGLES,
@@ -113,7 +113,7 @@ class GeomReader:
         heights = model.hfield_data[first : first + n_rows * n_columns].reshape(n_rows, n_columns)
         return solids.terrain(top * heights.astype(np.float64), half_x, half_y)
 
-    def _of_faces(self, table: NDArray[np.int32], mesh: int) -> NDArray[np.int32]:
+    def _of_faces(self, table: Ints32, mesh: int) -> Ints32:
         first, n = self.model.mesh_faceadr[mesh], self.model.mesh_facenum[mesh]
         return table[first : first + n]
 
@@ -140,14 +140,14 @@ class GeomReader:
         material = int(self.model.geom_matid[geom])
         return int(self.model.mat_texid[material, _ROLE_RGB]) if material >= 0 else -1
 
-    def _texture_coordinates(self, mesh: int) -> NDArray[np.float32] | None:
+    def _texture_coordinates(self, mesh: int) -> Floats32 | None:
         first = int(self.model.mesh_texcoordadr[mesh])
         if first < 0:
             return None
-        uv: NDArray[np.float32] = self.model.mesh_texcoord[first + self._of_faces(self.model.mesh_facetexcoord, mesh)]
+        uv: Floats32 = self.model.mesh_texcoord[first + self._of_faces(self.model.mesh_facetexcoord, mesh)]
         return uv
 
-    def _image(self, texture: int) -> NDArray[np.uint8]:
+    def _image(self, texture: int) -> Bytes:
         if texture not in self._textures:
             model = self.model
             height, width = int(model.tex_height[texture]), int(model.tex_width[texture])
@@ -157,9 +157,9 @@ class GeomReader:
         return self._textures[texture]
 
 
-def colours_rgba(model: Any) -> NDArray[np.float64]:
+def colours_rgba(model: Any) -> Floats:
     """Return the geoms' own colours (n_geoms, 4) [-]; geoms without one have the colour of their material."""
-    colours: NDArray[np.float64] = model.geom_rgba.astype(np.float64)
+    colours: Floats = model.geom_rgba.astype(np.float64)
     borrows = (model.geom_matid >= 0) & (model.geom_rgba == _NO_COLOUR).all(axis=1)
     colours[borrows] = model.mat_rgba[model.geom_matid[borrows]]
     return colours

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Bytes, Floats, Floats32, Ints
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.tree import Piece
 
@@ -29,7 +30,7 @@ class GeomReader:
     core: Any
     _shapes: dict[tuple[Any, int, str], _Shape] = field(default_factory=dict)
     _materials: dict[tuple[float | None, ...], FaceMaterial] = field(default_factory=dict)
-    _images: dict[Any, NDArray[np.uint8]] = field(default_factory=dict)
+    _images: dict[Any, Bytes] = field(default_factory=dict)
 
     def read(self, path: Any) -> list[Piece]:
         """Return the triangles of a NodePath's own node, in its own frame; none if it is no GeomNode.
@@ -82,7 +83,7 @@ class GeomReader:
         colour = rows[:, 5:9].mean(axis=0).astype(np.float64) if has_colour and len(rows) else None
         return _Shape(_name_of(vertices, faces), vertices, faces, uv, colour)
 
-    def _faces(self, primitive: Any) -> NDArray[np.int64]:
+    def _faces(self, primitive: Any) -> Ints:
         n = primitive.get_num_vertices()
         if primitive.is_indexed():
             array = primitive.get_vertices()
@@ -103,7 +104,7 @@ class GeomReader:
             self._materials.setdefault(key, FaceMaterial((r, g, b, a), image)), len(shape.faces), uv
         )
 
-    def _colour(self, state: Any, shape: _Shape) -> NDArray[np.float64]:
+    def _colour(self, state: Any, shape: _Shape) -> Floats:
         core = self.core
         flat, scale = (state.get_attrib(kind) for kind in (core.ColorAttrib, core.ColorScaleAttrib))
         colour: Any = shape.colour if shape.colour is not None else _WHITE
@@ -132,7 +133,7 @@ class GeomReader:
                 return stage, texture
         return None, None
 
-    def _image(self, texture: Any) -> NDArray[np.uint8] | None:
+    def _image(self, texture: Any) -> Bytes | None:
         """Return the picture, upper row first; None if Panda3D has released it."""
         if texture is None or not texture.has_ram_image():
             return None
@@ -158,7 +159,7 @@ class _Shape:
     """Triangles of one geom: `uv` (n_vertices, 2) as in `Appearance`; `colour` (4,) is the mean of its vertices."""
 
     key: str
-    vertices: NDArray[np.float64]
-    faces: NDArray[np.int64]
-    uv: NDArray[np.float32] | None
-    colour: NDArray[np.float64] | None
+    vertices: Floats
+    faces: Ints
+    uv: Floats32 | None
+    colour: Floats | None

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats32
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.looks.texture_files import TextureFiles
 
@@ -53,7 +53,7 @@ class DaeMaterials:
         if not is_map(paint):
             r, g, b = FaceMaterial().color_rgba[:3] if paint is None else _color(paint)
             return FaceMaterial((r, g, b, opacity))
-        uri = str(paint.sampler.surface.image.path).strip().replace("\\", "/")
+        uri = str(paint.sampler.surface.image.path).strip()
         texture = self.textures.from_file(uri, f"material {name!r}", keeps_alpha=is_map(effect.transparent))
         return FaceMaterial((1.0, 1.0, 1.0, opacity), texture)
 
@@ -88,13 +88,13 @@ def _texture_set(link: Any, symbol: str) -> str | None:
     return next((number for name, kind, number in link.inputs if name == symbol and kind == "TEXCOORD"), None)
 
 
-def _coordinates(primitive: Any, number: str | None) -> NDArray[np.float32] | None:
+def _coordinates(primitive: Any, number: str | None) -> Floats32 | None:
     """Return coordinates (m, 3, 2) of a set, or of the first set if there is no such set. v runs down."""
     tables, indices = primitive.texcoordset, primitive.texcoord_indexset
     if not tables:
         return None
     sets = [row[3] for row in primitive.sources.get("TEXCOORD", [])]
     which = sets.index(number) if number in sets else 0
-    uv: NDArray[np.float32] = np.asarray(tables[which], dtype=np.float32)[np.asarray(indices[which])][..., :2].copy()
+    uv: Floats32 = np.asarray(tables[which], dtype=np.float32)[np.asarray(indices[which])][..., :2].copy()
     uv[..., 1] = 1.0 - uv[..., 1]
     return uv

@@ -15,8 +15,8 @@ from pathlib import Path
 from urllib.parse import quote
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.errors import SceneError
 from scene2hap.scene.files import decoded, inside, read_bytes
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
@@ -31,6 +31,7 @@ _OPTIONS = {
 MAX_LIBRARIES = 1_000
 """Most libraries that one OBJ file may name (assumed: a hundred times as many as exporters write)."""
 _WORD = re.compile(r"\S+")
+_COMMENT = re.compile(r"(?:^|\s)#.*")
 _WORDS_AS_VALUES = ("-blendu", "-blendv", "-cc", "-clamp", "-imfchan", "-type")
 
 
@@ -42,7 +43,7 @@ class MtlMaterial:
     scale: tuple[float, float] = (1.0, 1.0)
     offset: tuple[float, float] = (0.0, 0.0)
 
-    def appearance(self, n_faces: int, uv: NDArray[np.float64] | None) -> Appearance:
+    def appearance(self, n_faces: int, uv: Floats | None) -> Appearance:
         """Return the looks of m faces. uv : (m, 3, 2) texture coordinates of their corners, v running up, or None."""
         if uv is None or not self.paint.has_texture:
             return Appearance.plain(self.paint.untextured(), n_faces)
@@ -109,11 +110,16 @@ class MtlLibraries:
         return replace(mapping, paint=FaceMaterial((r, g, b, a), texture, name))
 
 
+def without_comment(line: str) -> str:
+    """Return a line of an OBJ or MTL file without its comment. A name may contain the sign: `Chair#2`."""
+    return _COMMENT.sub("", line) if "#" in line else line
+
+
 def _blocks(text: str) -> Iterator[tuple[str, dict[str, str]]]:
     """Yield each material's name and its statements by lower-case keyword."""
     name, rows = None, dict[str, str]()
     for line in text.splitlines():
-        keyword, _, rest = line.partition("#")[0].strip().replace("\t", " ").partition(" ")
+        keyword, _, rest = without_comment(line).strip().replace("\t", " ").partition(" ")
         if keyword.lower() == "newmtl":
             if name is not None:
                 yield name, rows

@@ -13,18 +13,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.common.checks import represented
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.formats.mtl import MtlLibraries
+from scene2hap.scene.formats.mtl import MtlLibraries, without_comment
 from scene2hap.scene.formats.polygons import triangulated
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
 
 _SHIFT = 32
-_Table = NDArray[np.float64]
 
 
 @dataclass
@@ -98,7 +97,7 @@ def read_obj(text: str, name: str, textures: TextureFiles) -> AuthoredScene:
     return AuthoredScene(nodes, left_out=textures.left_out)
 
 
-def _node(number: int, part: _Part, points: _Table, uv: _Table, libraries: MtlLibraries) -> AuthoredNode:
+def _node(number: int, part: _Part, points: Floats, uv: Floats, libraries: MtlLibraries) -> AuthoredNode:
     pieces = []
     for key, faces in part.faces.items():
         packed, counts = np.array(faces.corners, dtype=np.int64), np.array(faces.counts, dtype=np.int64)
@@ -117,7 +116,7 @@ def _statements(text: str) -> Iterator[tuple[int, str, str]]:
     # Lines are joined once per statement, since one statement may have a hundred thousand lines.
     continued: list[str] = []
     for number, line in enumerate(text.splitlines(), start=1):
-        line = line.partition("#")[0]
+        line = without_comment(line)
         if line.endswith("\\"):
             continued.append(line[:-1])
             continue

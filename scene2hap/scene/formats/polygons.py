@@ -10,9 +10,8 @@ Source: Meisters, "Polygons have ears", American Mathematical Monthly 82(6), 197
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats, Ints
+from scene2hap.common.arrays import Bools, Floats, Ints
 from scene2hap.scene.geometry import cross_2d
 
 MAX_EAR_CORNERS = 512
@@ -59,14 +58,14 @@ def _normals(outlines: Floats) -> Floats:
     return normals
 
 
-def _is_fan(outlines: Floats) -> NDArray[np.bool_]:
+def _is_fan(outlines: Floats) -> Bools:
     """Return a mask of the outlines (k,) whose triangles from the first corner all have the outline's orientation."""
     with np.errstate(all="ignore"):
         spokes, normals = outlines - outlines[:, :1], _normals(outlines)
         areas = np.einsum("kni,ki->kn", _cross_3d(spokes[:, 1:-1], spokes[:, 2:]), normals)
         whole = np.einsum("ki,ki->k", normals, normals)
         # Faces without area, or with NaN coordinates, stay fans.
-        is_fan: NDArray[np.bool_] = ~(areas < -_ROUNDING * whole[:, None]).any(axis=1)
+        is_fan: Bools = ~(areas < -_ROUNDING * whole[:, None]).any(axis=1)
     return is_fan
 
 

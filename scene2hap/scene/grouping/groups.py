@@ -84,30 +84,35 @@ class Group:
     key: str = ""
 
 
+def check_grouping(how: object) -> None:
+    """Check that `how` is one of the forms of `Grouping`. Raises: SceneError: it is not."""
+    is_rule = isinstance(how, str) and how in ("authored", "leaf", "loose")
+    is_depth = isinstance(how, int) and not isinstance(how, bool) and how >= 0
+    is_table = isinstance(how, Mapping) and all(isinstance(name, str) for pair in how.items() for name in pair)
+    if not (is_rule or is_depth or is_table):
+        raise SceneError(
+            f"group is {checks.represented(how)}; it must be 'authored', 'leaf', 'loose', a depth from 0, or a mapping "
+            "of node names to object names."
+        )
+
+
 def group_objects(roots: Sequence[AuthoredNode], how: Grouping = "authored", *, scene_name: str = "") -> list[Group]:
     """Return the objects of a scene in file order. `scene_name` names the object of depth 0.
 
     Raises: SceneError: `how` is none of the forms of `Grouping`, or names a node that the scene does not have.
     """
+    check_grouping(how)
     kept = [node for root in roots if (node := root.with_geometry()) is not None]
     if how != "leaf":
         kept = without_undrawn(kept, how if isinstance(how, Mapping) else ())
     origin = np.eye(4)
-    scene = AuthoredNode(scene_name, origin, children=tuple(kept))
     if how == "authored":
         return [group for root in kept for group in _authored(rejoined(root), origin).groups]
-    if how == "leaf":
-        return list(_at_depth(scene, origin, math.inf))
-    if how == "loose":
-        return list(_loose(_at_depth(scene, origin, math.inf)))
-    if isinstance(how, int) and not isinstance(how, bool) and how >= 0:
-        return list(_at_depth(scene, origin, how))
     if isinstance(how, Mapping):
         return _mapped(kept, how)
-    raise SceneError(
-        f"group is {how!r}; it must be 'authored', 'leaf', 'loose', a depth from 0, or a mapping of node names to "
-        "object names."
-    )
+    depth = how if isinstance(how, int) else math.inf
+    groups = _at_depth(AuthoredNode(scene_name, origin, children=tuple(kept)), origin, depth)
+    return list(_loose(groups) if how == "loose" else groups)
 
 
 def unique_ids(names: Sequence[str]) -> list[str]:
@@ -284,6 +289,7 @@ def _mapped(roots: Sequence[AuthoredNode], names: Mapping[str, str]) -> list[Gro
             hint = checks.did_you_mean(wanted, sorted(known), "Names are those that the author wrote.")
             raise SceneError(f"group maps the node {wanted!r}, which the scene does not have. {hint}")
     objects: dict[str, Group] = {}
+    parts: dict[str, list[tuple[Matrix, Piece]]] = {}
 
     def take(node: AuthoredNode, above: Matrix, around: str | None) -> AuthoredNode:
         """Move the mapped pieces at and below `node` to their objects. Returns the node without these pieces.
@@ -297,8 +303,7 @@ def _mapped(roots: Sequence[AuthoredNode], names: Mapping[str, str]) -> list[Gro
                 for other in objects.keys() & {owner, around}:
                     objects[other] = replace(objects[other], mass_kg=None)
                 objects.setdefault(owner, Group(owner, frame, (), node.mass_kg, node.key))
-            parts = (*objects[owner].parts, *((frame, piece) for piece in node.pieces))
-            objects[owner] = replace(objects[owner], parts=parts)
+            parts.setdefault(owner, []).extend((frame, piece) for piece in node.pieces)
         children = tuple(take(child, frame, owner) for child in node.children)
         if owner is not None:
             return replace(node, pieces=(), children=())
@@ -306,4 +311,5 @@ def _mapped(roots: Sequence[AuthoredNode], names: Mapping[str, str]) -> list[Gro
         return node if is_whole else replace(node, children=children, mass_kg=None)
 
     rest = [take(root, np.eye(4), None) for root in roots]
-    return [*(group for group in objects.values() if group.parts), *group_objects(rest)]
+    found = [replace(group, parts=tuple(parts[name])) for name, group in objects.items() if parts[name]]
+    return [*found, *group_objects(rest)]

@@ -10,8 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats, Indices, Ints, Ints32
 from scene2hap.scene import limits
 from scene2hap.scene.geometry import welded
 from scene2hap.scene.shapes import TriMesh
@@ -50,7 +50,7 @@ def n_loose_parts(mesh: TriMesh) -> int:
     return int(part_of_faces(mesh.vertices_m, mesh.faces).max()) + 1
 
 
-def part_of_faces(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[np.int64]:
+def part_of_faces(vertices: Floats, faces: Ints32) -> Ints:
     """Return the number of the loose part (m,) of each face; parts are numbered by their first face."""
     place = welded(vertices, _SAME_PLACE * float(np.abs(vertices).max()))
     corners = place[faces]
@@ -65,7 +65,7 @@ def part_of_faces(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> ND
     return ranks[own]
 
 
-def _some(piece: Piece, rows: NDArray[np.intp], number: int) -> Piece:
+def _some(piece: Piece, rows: Indices, number: int) -> Piece:
     part = Piece.checked((piece.key, number), piece.vertices, piece.faces[rows], piece.material, "a loose part")
     looks = None if piece.appearance is None else piece.appearance.of_faces(rows)
     return replace(part, appearance=looks)

@@ -10,8 +10,8 @@ from bisect import bisect_left, bisect_right
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats, Ints32
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.copies import names_by_area
@@ -87,7 +87,7 @@ class ObjectMaker:
             material_names=names_by_area(mesh, which, [piece.material for piece in pieces]),
         )
 
-    def _mesh(self, group: Group, own: NDArray[np.float64]) -> TriMesh:
+    def _mesh(self, group: Group, own: Floats) -> TriMesh:
         """Return the mesh of a group, whose pieces `own` (n, 4, 4) places in the object's frame."""
         pieces = [piece for _, piece in group.parts]
         copies = self._copies.setdefault(tuple(piece.key for piece in pieces), _Copies())
@@ -106,7 +106,7 @@ class ObjectMaker:
             copies.add(moves, mesh)
         return mesh
 
-    def _bake(self, group: Group, own: NDArray[np.float64]) -> TriMesh:
+    def _bake(self, group: Group, own: Floats) -> TriMesh:
         pieces = [piece for _, piece in group.parts]
         # A piece that occurs several times in one object is copied each time, so the budget counts each.
         for piece in pieces:
@@ -132,7 +132,7 @@ class ObjectMaker:
             stored.add(mesh.vertices_m, mesh)
         return mesh
 
-    def _appearance(self, pieces: list[Piece], own: NDArray[np.float64]) -> Appearance | None:
+    def _appearance(self, pieces: list[Piece], own: Floats) -> Appearance | None:
         mirrors = [_mirrors(matrix) for matrix in own]
         key = tuple((piece.key, piece.paint, is_mirror) for piece, is_mirror in zip(pieces, mirrors, strict=True))
         if key not in self._looks:
@@ -149,9 +149,9 @@ class _Copies:
     """Meshes by tables of numbers, sorted by a mark that equal tables share, so that only few tables are compared."""
 
     marks: list[float] = field(default_factory=list)
-    rows: list[tuple[NDArray[np.float64], TriMesh]] = field(default_factory=list)
+    rows: list[tuple[Floats, TriMesh]] = field(default_factory=list)
 
-    def find(self, table: NDArray[np.float64], tolerance: float) -> TriMesh | None:
+    def find(self, table: Floats, tolerance: float) -> TriMesh | None:
         """Return the mesh of a table of equal shape whose entries all differ by at most the tolerance."""
         mark, spread = self._mark(table), tolerance * table.size
         first = bisect_left(self.marks, mark - spread)
@@ -161,7 +161,7 @@ class _Copies:
                 return mesh
         return None
 
-    def add(self, table: NDArray[np.float64], mesh: TriMesh) -> None:
+    def add(self, table: Floats, mesh: TriMesh) -> None:
         """Add the mesh of a table."""
         mark = self._mark(table)
         at = bisect_left(self.marks, mark)
@@ -169,13 +169,13 @@ class _Copies:
         self.rows.insert(at, (table, mesh))
 
     @staticmethod
-    def _mark(table: NDArray[np.float64]) -> float:
+    def _mark(table: Floats) -> float:
         """Return a weighted sum of the entries. The weights are irrational and below 1, so that entries in simple
         ratios do not cancel."""
         return float(table.ravel() @ np.modf(np.arange(1, table.size + 1) * 0.6180339887498949)[0])
 
 
-def _baked(piece: Piece, matrix: Matrix) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+def _baked(piece: Piece, matrix: Matrix) -> tuple[Floats, Ints32]:
     """Return vertices and faces of a transformed piece. Faces are reversed under mirroring, so they still face
     outwards."""
     vertices = piece.vertices @ matrix[:3, :3].T + matrix[:3, 3]

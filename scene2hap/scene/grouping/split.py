@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.scene import limits
 from scene2hap.scene.geometry import Bounds, bounds_of, distances, joined
 from scene2hap.scene.names import has_own_noun
@@ -81,6 +81,6 @@ def stand_apart(members: Sequence[Member], items: Sequence[Member], *, gap: floa
     return len(linked) < len(boxes)
 
 
-def _boxes(members: Sequence[Member]) -> NDArray[np.float64]:
+def _boxes(members: Sequence[Member]) -> Floats:
     """Return the boxes (n, 2, 3) in the world."""
     return np.array([member.box for member in members])

@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap.common.arrays import Floats
+from scene2hap.common.arrays import Bytes, Floats, Floats32, Indices, Ints32
 from scene2hap.errors import SceneError
 from scene2hap.scene.looks.textures import EncodedTexture
 
@@ -37,7 +37,7 @@ class FaceMaterial:
     def __init__(
         self,
         color_rgba: Rgba = (0.8, 0.8, 0.8, 1.0),
-        texture: NDArray[np.uint8] | EncodedTexture | None = None,
+        texture: Bytes | EncodedTexture | None = None,
         name: str = "",
     ) -> None:
         self.color_rgba = color_rgba
@@ -45,7 +45,7 @@ class FaceMaterial:
         self._texture = texture
 
     @property
-    def texture(self) -> NDArray[np.uint8] | None:
+    def texture(self) -> Bytes | None:
         """The pixels; None without a texture, or if the texture's file is broken."""
         return self._texture.texels if isinstance(self._texture, EncodedTexture) else self._texture
 
@@ -85,8 +85,8 @@ class Appearance:
     """
 
     materials: tuple[FaceMaterial, ...]
-    face_material: NDArray[np.int32]
-    uv: NDArray[np.float32] | None = None
+    face_material: Ints32
+    uv: Floats32 | None = None
 
     def __post_init__(self) -> None:
         m = len(self.face_material)
@@ -96,7 +96,7 @@ class Appearance:
             raise SceneError(f"uv has shape {self.uv.shape}; it must be ({m}, 3, 2), one pair per corner.")
 
     @classmethod
-    def plain(cls, material: FaceMaterial, n_faces: int, uv: NDArray[np.float32] | None = None) -> Appearance:
+    def plain(cls, material: FaceMaterial, n_faces: int, uv: Floats32 | None = None) -> Appearance:
         """Return looks with one material on all faces."""
         return cls((material,), np.zeros(n_faces, np.int32), uv)
 
@@ -108,7 +108,7 @@ class Appearance:
         content.update(b"" if self.uv is None else self.uv.tobytes())
         return content.hexdigest()[:16]
 
-    def of_faces(self, rows: NDArray[np.intp]) -> Appearance:
+    def of_faces(self, rows: Indices) -> Appearance:
         """Return the looks of some faces, without the materials that these do not have."""
         used, own = np.unique(self.face_material[rows], return_inverse=True)
         materials = tuple(self.materials[row] for row in used)
@@ -150,7 +150,7 @@ def srgb(linear: ArrayLike) -> Floats:
     return curve.round(9)
 
 
-def painted(colors: NDArray[np.floating], base: FaceMaterial, uv: NDArray[np.float32] | None = None) -> Appearance:
+def painted(colors: NDArray[np.floating], base: FaceMaterial, uv: Floats32 | None = None) -> Appearance:
     """Return the looks of m faces in `colors` (m, 3 or 4), sRGB 0..1, times the base material."""
     rgba = np.ones((len(colors), 4))
     rgba[:, : colors.shape[1]] = np.clip(np.nan_to_num(colors), 0.0, 1.0)

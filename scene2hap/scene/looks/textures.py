@@ -11,8 +11,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Bytes
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
@@ -86,7 +86,7 @@ class EncodedTexture:
         return hashlib.sha256(self.encoded + bytes([self.has_alpha])).hexdigest()[:16]
 
     @cached_property
-    def texels(self) -> NDArray[np.uint8] | None:
+    def texels(self) -> Bytes | None:
         """The pixels (height, width, 3 or 4) uint8 sRGB; None, after a TextureWarning, if they cannot be decoded."""
         try:
             with opened(self.encoded) as image:
@@ -101,7 +101,7 @@ class EncodedTexture:
         texels.flags.writeable = False
         return texels
 
-    def _decoded(self, image: Image.Image) -> NDArray[np.uint8]:
+    def _decoded(self, image: Image.Image) -> Bytes:
         from PIL import Image
 
         # JPEG decodes to a half, a quarter or an eighth of its size in a fraction of the time.

@@ -34,13 +34,13 @@ from scene2hap.scene.plausibility.units import implausible
 _MOST_RESTING, _MORE_RESTING = 0.5, 1.5
 # This many rotations with a first component of 1 show that w is first: read as (x, y, z, w), they turn objects upside
 # down.
-_TWO = 2
+_LEAST_UNTURNED = 2
 # The w of a rotation by 74 degrees. Most objects are rotated by less (assumed). Exporters that rotate all objects to
 # another up axis use 90 degrees.
 _MOSTLY_W = 0.8
 _GROUNDS = frozenset({"floor", "ground", "carpet", "rug"})
 _DENSEST_KG_M3 = 22_600.0  # osmium
-_NONE = 1e-6
+_ROUNDING = 1e-6
 
 
 def findings(scene: SceneData) -> Iterator[Finding]:
@@ -174,10 +174,10 @@ def _begin_with_w(scene: SceneData) -> bool:
     rotations = np.array([item.pose.rotation_xyzw for item in scene.objects])
     # (w, x, y, z) of a rotation about y is (c, 0, s, 0), about z (c, 0, 0, s). Read as (x, y, z, w) it tips objects
     # over.
-    none = (1, 3) if scene.up_axis == "y" else (1, 2)
-    tips = np.abs(rotations[:, list(none)]).max(axis=1) < _NONE
+    zeros = (1, 3) if scene.up_axis == "y" else (1, 2)
+    tips = np.abs(rotations[:, list(zeros)]).max(axis=1) < _ROUNDING
     first = np.abs(rotations[:, 0])
-    is_none = len(tips) >= _TWO and bool((first > 1.0 - _NONE).all())
+    is_none = len(tips) >= _LEAST_UNTURNED and bool((first > 1.0 - _ROUNDING).all())
     return is_none or bool(len(tips) >= FEW and tips.all() and (first > _MOSTLY_W).mean() > 0.5)
 
 

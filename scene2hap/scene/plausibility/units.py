@@ -11,9 +11,9 @@ from collections.abc import Sequence
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import Bools, Floats
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError
 from scene2hap.scene.geometry import joined
@@ -124,7 +124,7 @@ def implausible(snapshot: SceneData, unit_m: float = 1.0) -> UnitDoubt | None:
     return UnitDoubt(f"sizes in {snapshot.name!r} are implausible as metres: {reason}.", text, name, of_model)
 
 
-def _ground_m(bounds_m: NDArray[np.float64], is_floor: NDArray[np.bool_], up: int) -> float:
+def _ground_m(bounds_m: Floats, is_floor: Bools, up: int) -> float:
     """Return the height of the lowest floor [m]; without floors, that of the lowest object.
 
     Simulations keep objects below the floor until they need them. An object that encloses the whole scene does not
@@ -137,9 +137,7 @@ def _ground_m(bounds_m: NDArray[np.float64], is_floor: NDArray[np.bool_], up: in
     return float(standing[:, 0, up].min())
 
 
-def _evidence_of(
-    objects: Sequence[SceneObject], tops_m: NDArray[np.float64], extents_m: NDArray[np.float64]
-) -> list[_Evidence]:
+def _evidence_of(objects: Sequence[SceneObject], tops_m: Floats, extents_m: Floats) -> list[_Evidence]:
     """Return evidence of the named objects. Only the middle three of each kind count, so chairs do not outvote all."""
     named = [
         (known, item.name, float(top), tuple(f"{edge:.3g}" for edge in sorted(extent)), float(extent.max()))
@@ -187,9 +185,7 @@ def _by_names(evidence: Sequence[_Evidence]) -> tuple[float, str] | None:
     return (near[0] if near else factor), f"{one.name!r} {where.format(one.measured_m)}, where {span} is usual"
 
 
-def _by_size(
-    size_m: NDArray[np.float64], up: int, edges_m: NDArray[np.float64], by_name: tuple[float, str] | None
-) -> tuple[float, str] | None:
+def _by_size(size_m: Floats, up: int, edges_m: Floats, by_name: tuple[float, str] | None) -> tuple[float, str] | None:
     """Return the likely unit of a scene that is far too large or small, and its size in words.
 
     Parameters: by_name : what a single name says, which decides between units that make a room of the scene.

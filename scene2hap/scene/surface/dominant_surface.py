@@ -40,7 +40,7 @@ from scene2hap.scene.surface.outline import Outline
 from scene2hap.scene.surface.plate_edge import windows
 from scene2hap.scene.surface.rays import Hits, cast_grid, cut, edges_seen, first_solids, median_span, share_open
 from scene2hap.scene.surface.section import section_outline
-from scene2hap.scene.surface.winding import edge_keys, well_wound
+from scene2hap.scene.surface.winding import edges_of, well_wound
 
 RAYS_PER_SIDE = 32
 """Rays along each side of the bounding box. The resolution is about 1/32 of the box (tuned: 5 ms an object)."""
@@ -267,8 +267,7 @@ def _is_container(side: _Side, points: Floats, faces: Ints) -> bool:
 def _rim_height(triangles: Floats, size: float) -> float:
     """Return the median height of the edges of triangles (3, 3, m) that have one triangle only; -inf without any."""
     corners = welded(triangles.reshape(3, -1).T, SAME_PLACE * size).reshape(3, -1)
-    start, end = corners.ravel(), np.roll(corners, -1, axis=0).ravel()
-    keys = edge_keys(np.minimum(start, end), np.maximum(start, end))
+    start, end, keys = edges_of(corners)
     _, first, counts = np.unique(keys, return_index=True, return_counts=True)
     rim = first[(counts == 1) & (start != end)[first]]
     if not len(rim):

@@ -9,10 +9,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from scene2hap.common import checks
-from scene2hap.common.arrays import Floats, floats
+from scene2hap.common.arrays import Bools, Floats, Indices, floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.json_fields import Real
 from scene2hap.errors import SceneError
@@ -178,7 +178,7 @@ class Outline:
         shift = -np.concatenate(rings).min(axis=0)
         return Outline(ring + shift for ring in rings), turn, shift
 
-    def holds(self, points_m: Floats) -> NDArray[np.bool_]:
+    def holds(self, points_m: Floats) -> Bools:
         """Return a mask of the points (n, 2) inside the area."""
         starts, ends = self._edges
         (xa, ya), (xb, yb) = starts.T, ends.T
@@ -186,7 +186,7 @@ class Outline:
         crosses = (ya > y) != (yb > y)
         with np.errstate(divide="ignore", invalid="ignore"):
             beyond = x < xa + (y - ya) / (yb - ya) * (xb - xa)
-        within: NDArray[np.bool_] = np.count_nonzero(crosses & beyond, axis=1) % 2 == 1
+        within: Bools = np.count_nonzero(crosses & beyond, axis=1) % 2 == 1
         return within
 
     @cached_property
@@ -221,7 +221,7 @@ class Outline:
         off = np.stack([moments_x, moments_y]) / np.maximum(shares, 1e-9)
         return shares.clip(0.0, 1.0), off.clip(-0.5, 0.5)
 
-    def narrow_gaps(self, x_m: Floats, y_m: Floats) -> NDArray[np.bool_]:
+    def narrow_gaps(self, x_m: Floats, y_m: Floats) -> Bools:
         """Return a mask (nx, ny) of the pixels in the middle of narrow gaps between two parts of the area.
 
         A slot thinner than a pixel leaves most of the pixel covered, so the pixel's share does not show the gap. Pixels
@@ -238,7 +238,7 @@ def _normals(ways: Floats) -> Floats:
     return unit
 
 
-def _crossings(starts: Floats, ends: Floats, y_m: Floats) -> tuple[Floats, NDArray[np.intp]]:
+def _crossings(starts: Floats, ends: Floats, y_m: Floats) -> tuple[Floats, Indices]:
     """Return where scan lines cross edges, along x (n,) [m], and the lines' numbers (n,), in the order of both."""
     scan = (y_m[:-1, None] + np.diff(y_m)[:, None] * (np.arange(_LINES) + 0.5) / _LINES).ravel()
     low, high = np.minimum(starts[:, 1], ends[:, 1]), np.maximum(starts[:, 1], ends[:, 1])
@@ -251,7 +251,7 @@ def _crossings(starts: Floats, ends: Floats, y_m: Floats) -> tuple[Floats, NDArr
     return x[order], line[order]
 
 
-def _gaps(starts: Floats, ends: Floats, x_m: Floats, y_m: Floats) -> NDArray[np.bool_]:
+def _gaps(starts: Floats, ends: Floats, x_m: Floats, y_m: Floats) -> Bools:
     """Return a mask (nx, ny) of the pixels in the middle of gaps of at most `_NARROW` pixels along x."""
     x, line = _crossings(starts, ends, y_m)
     is_gap = line[1:-1:2] == line[2::2]
@@ -264,7 +264,7 @@ def _gaps(starts: Floats, ends: Floats, x_m: Floats, y_m: Floats) -> NDArray[np.
     return mask
 
 
-def _in_long_runs(is_in: NDArray[np.bool_], turns: Floats, least: float) -> NDArray[np.bool_]:
+def _in_long_runs(is_in: Bools, turns: Floats, least: float) -> Bools:
     """Return a mask of the corners of a ring in runs that turn by `least` or more in total."""
     if is_in.all():
         return is_in
@@ -272,7 +272,7 @@ def _in_long_runs(is_in: NDArray[np.bool_], turns: Floats, least: float) -> NDAr
     own, angles = np.roll(is_in, -first), np.roll(turns, -first)
     run = np.cumsum(~own)
     total = np.bincount(run, np.where(own, angles, 0.0))
-    kept: NDArray[np.bool_] = np.roll(own & (total[run] > least), first)
+    kept: Bools = np.roll(own & (total[run] > least), first)
     return kept
 
 

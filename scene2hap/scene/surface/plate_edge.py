@@ -10,9 +10,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Bools, Floats
+from scene2hap.common.arrays import Bools, Floats, Ints
 
 # Tuned on real scenes, with the labels in tests/data/dominant_surfaces.csv unchanged.
 _NARROW = 0.5  # rows filled by less than this share of the fullest row's rays are no part of the plate ...
@@ -53,7 +52,7 @@ def windows(seen: Bools, level: Bools) -> tuple[Window, Window]:
     return along_u, along_v
 
 
-def _window(n_seen: NDArray[np.int64], n_level: NDArray[np.int64]) -> Window:
+def _window(n_seen: Ints, n_level: Ints) -> Window:
     n = len(n_seen)
     is_wide = n_seen >= _NARROW * n_seen.max()
     ends = np.flatnonzero(np.diff(is_wide, prepend=False, append=False)).reshape(-1, 2)

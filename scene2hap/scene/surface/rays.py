@@ -14,9 +14,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from scene2hap.common.arrays import Floats, Ints
+from scene2hap.common.arrays import Bools, Floats, Ints
 from scene2hap.scene.geometry import counted_up
 
 # Pairs of triangle and ray that are tested at once. This bounds memory to about 100 MB (assumed).
@@ -178,7 +177,7 @@ def first_solids(hits: Hits, tolerance: float) -> Solids:
     return Solids(w[top], np.append(w, np.nan)[np.where(has_solid, left, start)])
 
 
-def _are_labels(w: Floats, side: Ints, start: Ints, stop: Ints) -> NDArray[np.bool_]:
+def _are_labels(w: Floats, side: Ints, start: Ints, stop: Ints) -> Bools:
     """Mark the layers (n,) that are labels: the outer of two near faces that look the same way, one without a back."""
     net = np.repeat(np.add.reduceat(side, start), stop - start)
     is_first = np.repeat(side[start] * net[start] > 0, stop - start)
@@ -188,7 +187,7 @@ def _are_labels(w: Floats, side: Ints, start: Ints, stop: Ints) -> NDArray[np.bo
     return np.where(is_first, upper, lower)
 
 
-def _next(is_wanted: NDArray[np.bool_], start: Ints) -> Ints:
+def _next(is_wanted: Bools, start: Ints) -> Ints:
     """Return the first wanted index from each `start` on; the length of `is_wanted` if none follows."""
     places = np.append(np.flatnonzero(is_wanted), len(is_wanted))
     return places[np.searchsorted(places, start)]

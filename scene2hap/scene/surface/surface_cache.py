@@ -6,8 +6,8 @@ Beyond the budget, meshes are measured by the boxes around them.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
@@ -35,7 +35,7 @@ class SurfaceCache:
         self._measured: dict[tuple[object, ...], DominantSurface] = {}
         self._has_warned = False
 
-    def of(self, mesh: TriMesh, up: NDArray[np.float64], place: str, *, turns: bool = False) -> DominantSurface:
+    def of(self, mesh: TriMesh, up: Floats, place: str, *, turns: bool = False) -> DominantSurface:
         """Return the surface of a mesh; `up` (3,) is the upward direction in its frame. See `dominant_surface`.
 
         Copies share the surface of the first. With `turns`, copies with another up direction are measured separately.

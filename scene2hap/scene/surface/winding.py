@@ -35,7 +35,7 @@ def well_wound(points: Floats, faces: Ints, spend: Callable[[int], None] = lambd
     A well-wound mesh is returned unchanged.
     """
     corners = welded(points.T, SAME_PLACE * float(np.ptp(points, axis=1).max()))[faces]
-    edges = np.sort(edge_keys(corners, np.roll(corners, -1, axis=0)), axis=None)
+    edges = np.sort(_directed(corners, np.roll(corners, -1, axis=0)), axis=None)
     has_area = (corners != np.roll(corners, -1, axis=0)).all(axis=0)
     if (edges[1:] != edges[:-1]).all() or not has_area.any():
         return faces
@@ -72,8 +72,7 @@ class _Patches(NamedTuple):
         from scipy.sparse.csgraph import connected_components
 
         m = corners.shape[1]
-        start, end = corners.ravel(), np.roll(corners, -1, axis=0).ravel()
-        keys = edge_keys(np.minimum(start, end), np.maximum(start, end))
+        start, _, keys = edges_of(corners)
         order = np.argsort(keys, kind="stable")
         begins = np.flatnonzero(np.diff(keys[order], prepend=-1))
         count = np.diff(begins, append=len(keys))
@@ -103,8 +102,8 @@ class _Patches(NamedTuple):
 
 def _are_balanced(corners: Ints) -> Bools:
     """Return True (m,) for triangles (3, m) whose edges run as often one way as the other in the mesh."""
-    start, end = corners.ravel(), np.roll(corners, -1, axis=0).ravel()
-    _, edge = np.unique(edge_keys(np.minimum(start, end), np.maximum(start, end)), return_inverse=True)
+    start, end, keys = edges_of(corners)
+    _, edge = np.unique(keys, return_inverse=True)
     balanced: Bools = (np.bincount(edge, np.where(start < end, 1, -1)) == 0)[edge].reshape(3, -1).all(axis=0)
     return balanced
 
@@ -123,7 +122,13 @@ def _distinct(corners: Ints) -> tuple[Ints, Ints, Ints]:
     return first[in_file], copies[in_file], np.add.reduceat(turn[order], begins)[in_file]
 
 
-def edge_keys(start: Ints, end: Ints) -> Ints:
+def _directed(start: Ints, end: Ints) -> Ints:
     """Return a number for each pair of corners, from start to end."""
     keys: Ints = (start << 32) | end
     return keys
+
+
+def edges_of(corners: Ints) -> tuple[Ints, Ints, Ints]:
+    """Return start and end (3 m,) of the edges of triangles (3, m), and a number that is equal for both directions."""
+    start, end = corners.ravel(), np.roll(corners, -1, axis=0).ravel()
+    return start, end, _directed(np.minimum(start, end), np.maximum(start, end))

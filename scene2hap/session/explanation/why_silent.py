@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-
 from scene2hap.common.counted import first_of
 from scene2hap.propagation.protocol import follows_poses
+from scene2hap.scene.geometry import corners_of
 from scene2hap.session.mix.sources import Sources
 from scene2hap.session.present_scene.scene_state import SceneState
 
@@ -78,7 +77,7 @@ class WhySilent:
         """Return True if the box of an object is inside the box around another one, in the other's frame."""
         boxes_m = [self._state.objects[x].geometry.mesh.bounds_m for x in (object_id, other_id)]
         pose = self._state.graph.pose
-        corners_m = np.stack(np.meshgrid(*boxes_m[0].T), axis=-1).reshape(-1, 3)
+        corners_m = corners_of(boxes_m[0])
         own_m = pose(other_id).to_own(pose(object_id).to_world(corners_m))
         return bool(((own_m >= boxes_m[1][0]) & (own_m <= boxes_m[1][1])).all())
 

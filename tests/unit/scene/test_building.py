@@ -125,6 +125,35 @@ def test_surface_faces_up_with_z_up() -> None:
     assert kept.objects[0].surface == given
 
 
+def test_a_surface_is_that_of_the_pose_and_the_geometry_in_the_scene() -> None:
+    """A tray, open on one side, that was made first and laid, tipped or exchanged later, is measured as it is."""
+    sides = trimesh.creation.box((0.4, 0.1, 0.3))
+    sides.update_faces(sides.face_normals[:, 1] < 0.5)
+    tipped = Pose.from_euler((0.0, 0.0, 0.0), (math.pi / 2, 0.0, 0.0))
+    for up_axis in ("y", "z"):
+        for pose, geometry in ((tipped, sides), (Pose(), Box((0.2, 0.5, 0.01)))):
+            later = moved(SceneObject("tray", geometry=sides), pose=pose, geometry=geometry)
+            at_once = SceneObject("tray", pose=pose, geometry=geometry)
+            assert SceneSnapshot("room", up_axis, (later,)) == SceneSnapshot("room", up_axis, (at_once,))
+    assert moved(SceneObject("tray", geometry=sides), geometry=Box((0.2, 0.5, 0.01))).size_m == (0.5, 0.2, 0.01)
+    # In a scene an object keeps its surface, wherever it is moved.
+    scene = SceneSnapshot.build([SceneObject("tray", geometry=sides)])
+    assert scene.with_poses({"tray": tipped}).objects[0].surface == scene.objects[0].surface
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: SceneObject("rock", geometry=Box((3e6, 1, 1))),
+        lambda: SceneObject("rock", geometry=TriMesh(np.eye(3) * 1e200, [[0, 1, 2]])),
+        lambda: SceneObject("rock", pose=Pose((0, 1e308, 0)), geometry=Box((1, 1, 1))),
+    ],
+)
+def test_coordinates_are_bounded(make: object) -> None:
+    with pytest.raises(SceneError, match=r"object 'rock' is placed or scaled beyond 1e\+06 m"):
+        make()
+
+
 def test_meshes_of_other_packages_are_accepted() -> None:
     ball = trimesh.creation.icosphere(radius=0.1)
     one, other = SceneObject("ball", geometry=ball), SceneObject("other", geometry=(ball.vertices, ball.faces))
@@ -140,6 +169,10 @@ def test_meshes_of_other_packages_are_accepted() -> None:
         (lambda: SceneObject("mug"), "geometry of object 'mug' is missing"),
         (lambda: SceneObject("mug", geometry="cube"), r"must be a Box\(\(x, y, z\)\) of edges"),
         (lambda: SceneObject("mug", pose=(0, 1, 0), geometry=Box((1, 1, 1))), "pose of object 'mug' is"),
+        (
+            lambda: SceneObject("mug", geometry=Box((1, 1, 1)), surface="top"),
+            "surface of object 'mug' is 'top'; it must",
+        ),
         (lambda: SceneSnapshot.build(ROOM[0]), "must be a list of SceneObject"),
         (lambda: SceneSnapshot.build(["mug"]), "an object is 'mug'"),
         (lambda: SceneSnapshot.build([]), "has no object"),

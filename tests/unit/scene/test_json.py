@@ -75,6 +75,12 @@ def test_a_round_trip_is_exact(snapshot: SceneSnapshot) -> None:
     assert SceneSnapshot.from_json(snapshot.to_json()) == snapshot
 
 
+def test_a_byte_order_mark_before_the_text_is_no_fault() -> None:
+    """`path.read_text()` keeps the mark with which C# and PowerShell begin a file."""
+    before = scene(box("table", (1.0, 0.7, 0.6), (0.0, 0.35, 0.0)))
+    assert SceneSnapshot.from_json("\ufeff" + before.to_json()) == before
+
+
 def test_the_round_trip_keeps_every_bit_of_a_mesh() -> None:
     vertices = np.random.default_rng(7).normal(size=(30, 3)) / 3
     mesh = TriMesh(vertices, np.arange(30).reshape(10, 3))

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from gltf_builder import Gltf, one_cube
@@ -88,6 +89,9 @@ def test_a_text_without_shapes_is_an_empty_scene(tmp_path: Path) -> None:
         ({"unit_m": float("inf")}, "unit_m is inf m; it must be finite"),
         ({"unit_m": "cm"}, "unit_m is 'cm'; it must be a number"),
         ({"group": "auto"}, "group is 'auto'"),
+        ({"group": True}, "group is True"),
+        ({"group": {"cube": 1}}, "group is {'cube': 1}; it must be"),
+        ({"group": np.array([1, 2])}, r"group is array\(\[1, 2\]\)"),
     ],
 )
 def test_invalid_options_are_refused(tmp_path: Path, options: dict[str, object], sentence: str) -> None:

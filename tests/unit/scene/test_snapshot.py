@@ -32,6 +32,13 @@ def test_bounds_exclude_unused_vertices() -> None:
     np.testing.assert_array_equal(mesh.bounds_m, [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0]])
 
 
+def test_a_normal_of_a_contact_is_a_unit_vector_or_unknown() -> None:
+    assert Contact("a", "b", (0, 0, 0), (0.0, 3.0, 4.0)).normal == pytest.approx((0.0, 0.6, 0.8))
+    assert Contact("a", "b", (0, 0, 0), (0.0, 0.0, 0.0)).normal is None
+    given = (0.0, 0.6, 0.8 + 1e-12)
+    assert Contact("a", "b", (0, 0, 0), given).normal == given
+
+
 def test_meshes_are_equal_by_content() -> None:
     assert TriMesh(TRIANGLE, [[0, 1, 2]]) == TriMesh(np.array(TRIANGLE, dtype=np.float32), [[0.0, 1.0, 2.0]])
     assert TriMesh(TRIANGLE, [[0, 1, 2]]) != TriMesh(TRIANGLE, [[0, 2, 1]])

@@ -13,9 +13,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from pxr import Sdf, Tf, UsdGeom, UsdShade
 
+from scene2hap.common.arrays import Floats, Ints
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene.formats.usd.layers import Layers
 from scene2hap.scene.formats.usd.meshes import Triangles
@@ -32,7 +32,7 @@ class _TexturedMaterial:
 
     material: FaceMaterial
     primvar: str = "st"
-    transform: NDArray[np.float64] = field(default_factory=lambda: np.eye(2, 3))
+    transform: Floats = field(default_factory=lambda: np.eye(2, 3))
 
 
 class UsdMaterials:
@@ -46,7 +46,7 @@ class UsdMaterials:
         """Return the material bound to a prim or to one above it (`UsdShade.Material`, false if there is none)."""
         return UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
 
-    def looks(self, prim: Any, bound: Any, found: Triangles, rows: NDArray[np.int64]) -> Appearance | None:
+    def looks(self, prim: Any, bound: Any, found: Triangles, rows: Ints) -> Appearance | None:
         """Return the looks of some triangles of a gprim under its bound material; None if the file has none."""
         paint = self._paint(bound) if bound else None
         if paint is None:
@@ -63,7 +63,7 @@ class UsdMaterials:
 
     # -- primvars ----------------------------------------------------------------------------------------------------
 
-    def _displayed(self, prim: Any, found: Triangles, rows: NDArray[np.int64]) -> Appearance | None:
+    def _displayed(self, prim: Any, found: Triangles, rows: Ints) -> Appearance | None:
         colors = self._primvar(prim, "displayColor", 3, found)
         if colors is None:
             return None
@@ -74,7 +74,7 @@ class UsdMaterials:
             rgba[:, 3] = opacity[rows].mean(axis=1)[:, 0]
         return painted(rgba, FaceMaterial((1.0, 1.0, 1.0, 1.0)))
 
-    def _primvar(self, prim: Any, name: str, columns: int, found: Triangles) -> NDArray[np.float64] | None:
+    def _primvar(self, prim: Any, name: str, columns: int, found: Triangles) -> Floats | None:
         """Return values (m, 3, columns) at the corners; None if there are none. If they do not fit, the reason is
         recorded."""
         primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(name)
@@ -155,7 +155,7 @@ def _file_spec(texture: Any) -> Any | None:
     return None
 
 
-def _coordinates(texture: Any) -> tuple[str, NDArray[np.float64]]:
+def _coordinates(texture: Any) -> tuple[str, Floats]:
     """Return the primvar of a texture's coordinates, and the transform (2, 3) of its values (u, v, 1)."""
     matrix = np.eye(3)
     _, shader = _input(texture, "st", None)

@@ -10,8 +10,9 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from pxr import Usd
+
+from scene2hap.common.arrays import Floats, Ints
 
 _WEAK = (Usd.ResolveInfoSourceNone, Usd.ResolveInfoSourceFallback)
 
@@ -47,12 +48,12 @@ def value(attribute: Any) -> Any:
     return attribute.Get(rest_time((attribute,))) if attribute else None
 
 
-def vectors(attribute: Any) -> NDArray[np.float64]:
+def vectors(attribute: Any) -> Floats:
     """Return an array attribute as (n, 3) float64; empty if it holds nothing."""
     return np.array(value(attribute) or (), dtype=np.float64).reshape(-1, 3)
 
 
-def integers(attribute: Any) -> NDArray[np.int64]:
+def integers(attribute: Any) -> Ints:
     """Return an array attribute as (n,) int64; empty if it holds nothing."""
     return np.array(value(attribute) or (), dtype=np.int64).reshape(-1)
 

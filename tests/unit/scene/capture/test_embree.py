@@ -111,6 +111,22 @@ def test_a_culled_object_in_the_whole_tree_leaves_no_trace() -> None:
     assert len(colours) == 3, "the table shows its three sides, nothing of what is inside it"
 
 
+def test_a_tree_that_is_used_again_and_again_is_built_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A picture of the whole scene, then one with a wall opened, eight walls in turn."""
+    built: list[int] = []
+    walls = [box(f"wall {k}", (0.1, 1, 1), (k, 0.5, 0)) for k in range(8)]
+    render_scene = RenderScene.of(scene(box("floor", (10, 0.1, 4), (4, -0.05, 0)), *walls))
+    points = np.concatenate([item.points_m for item in render_scene.objects])
+    camera = frame(points, 30.0, 45.0, "y", 0.8, 32)
+    renderer = embree.EmbreeRenderer(render_scene, False)
+    build = renderer._built
+    monkeypatch.setattr(renderer, "_built", lambda numbers: built.append(len(numbers)) or build(numbers))
+    for k in range(8):
+        renderer.identify(camera, Selection(render_scene.everyone))
+        renderer.identify(camera, Selection(render_scene.everyone, frozenset({1 + k}), (0.0, 0.0, 0.0)))
+    assert built.count(9 * 12) == 1
+
+
 def test_antialiasing_changes_only_edges() -> None:
     rough, ids = draw(table_and_cup(), antialias=False)
     smooth, same_ids = draw(table_and_cup(), antialias=True)

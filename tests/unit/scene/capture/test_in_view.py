@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from host import rasteriser_problem
-from scene2hap.scene.capture.faces import extents, in_view
+from scene2hap.scene.capture.panda3d_in_view import extents, in_view
 from scene2hap.scene.capture.views import Camera, frame
 
 CENTRE = frame(np.array([(-1.0, -1, -1), (1, 1, 1)]), 20.0, 30.0, "y", 0.8, 64)

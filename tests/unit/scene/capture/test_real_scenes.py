@@ -117,7 +117,7 @@ def test_outline_encloses_exactly_the_visible_target(name: str, every: int) -> N
     common = total = 0
     for turn, subject in enumerate(sorted(set(pictures.copies.context.values()))[::every]):
         shot = pictures.config.object_shots("context", subject)[turn % 8]
-        camera, selection = pictures._photographer.aim(shot)
+        camera, selection = pictures._shot_renderer.aim(shot)
         is_outline = (picture(pictures.image(shot)) == PINK).all(axis=2)
         rows, columns = np.nonzero(is_outline)
         assert len(rows), f"{subject} has no outline {shot.label}"
@@ -140,12 +140,12 @@ def test_outline_encloses_exactly_the_visible_target(name: str, every: int) -> N
 @pytest.mark.parametrize("name", names())
 def test_every_isolated_image_is_framed_and_not_blank(name: str) -> None:
     pictures = studio_of(name)
-    man = pictures._photographer
+    shots = pictures._shot_renderer
     for subject in some_ids(pictures, 5):
         item = pictures.scene.object(subject)
         points = item.pose.to_world(item.geometry.mesh.vertices_m[np.unique(item.geometry.mesh.faces)])
         for shot in pictures.config.object_shots("isolated", subject)[::3]:
-            camera, _ = man.aim(shot)
+            camera, _ = shots.aim(shot)
             pixels, _ = camera.project(points - pictures.render_scene.origin_m)
             assert 0.6 <= np.ptp(pixels, axis=0).max() / SIZE_PX <= 0.9
             assert picture(pictures.image(shot)).std() > 2
@@ -154,17 +154,17 @@ def test_every_isolated_image_is_framed_and_not_blank(name: str) -> None:
 @pytest.mark.parametrize("name", names())
 def test_targets_are_visible_in_context_pictures(name: str) -> None:
     pictures = studio_of(name)
-    man = pictures._photographer
+    shots = pictures._shot_renderer
     good = []
     subjects = sorted(set(pictures.copies.context.values()))[1::5]
     for subject in subjects:
         number = pictures.render_scene.index[subject]
         shares = []
         for shot in pictures.config.object_shots("context", subject):
-            camera, selection = man.aim(shot)
+            camera, selection = shots.aim(shot)
             small = camera.resized(96)
-            alone = man.renderer.identify(small, Selection(frozenset({number}))) == number
-            seen = man.renderer.identify(small, selection) == number
+            alone = shots.renderer.identify(small, Selection(frozenset({number}))) == number
+            seen = shots.renderer.identify(small, selection) == number
             shares.append((alone & seen).sum() / max(alone.sum(), 1))
         good.append(sum(share >= 0.6 for share in shares) >= 4)
     assert np.mean(good) >= 0.95
@@ -175,8 +175,8 @@ def test_scene_pictures_show_most_objects(name: str) -> None:
     pictures = studio_of(name)
     seen: set[int] = set()
     for shot in pictures.config.scene_shots():
-        camera, selection = pictures._photographer.aim(shot)
-        seen |= set(np.unique(pictures._photographer.renderer.identify(camera, selection)).tolist())
+        camera, selection = pictures._shot_renderer.aim(shot)
+        seen |= set(np.unique(pictures._shot_renderer.renderer.identify(camera, selection)).tolist())
         assert picture(pictures.image(shot)).std() > 10
     assert len(seen - {-1}) >= 0.7 * len(pictures.scene.objects)
 

@@ -42,6 +42,20 @@ def test_a_name_is_read_as_it_is_or_as_an_address(tmp_path: Path, named: str, st
     assert looks(one(write(tmp_path, f"newmtl wood\nmap_Kd {named}\n"))).materials[0].texture is not None
 
 
+def test_a_comment_begins_before_a_word_and_not_within_a_name(tmp_path: Path) -> None:
+    """Copies of objects, materials and files are numbered with this sign."""
+    (tmp_path / "oak#2.png").write_bytes(image_file())
+    (tmp_path / "set#1.mtl").write_text("newmtl oak#1 # plain\nKd 1 0 0\nnewmtl oak#2\nmap_Kd oak#2.png\t# texture\n")
+    chairs = "".join(f"o Chair#{k} # a chair\nusemtl oak#{k}\n{FACE.strip()} # front\n" for k in (1, 2))
+    (tmp_path / "scene.obj").write_text(f"#head\nmtllib set#1.mtl\n{SQUARE}{chairs}")
+    first, second = load_scene(tmp_path / "scene.obj", unit_m=1.0).objects
+    assert [(item.id, item.name, item.material_names) for item in (first, second)] == [
+        ("Chair#1", "Chair#1", ("oak#1",)),
+        ("Chair#2", "Chair#2", ("oak#2",)),
+    ]
+    assert [looks(item).materials[0].texture is None for item in (first, second)] == [True, False]
+
+
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
 def test_names_of_materials_and_files_are_read_in_any_encoding(tmp_path: Path, encoding: str) -> None:
     (tmp_path / "Türe.png").write_bytes(image_file())

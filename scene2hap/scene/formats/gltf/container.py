@@ -14,9 +14,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
-import numpy as np
-from numpy.typing import NDArray
-
+from scene2hap.common.arrays import Floats
 from scene2hap.common.checks import represented
 from scene2hap.common.json_texts import read_json
 from scene2hap.errors import SceneError, SceneFormatError
@@ -61,7 +59,7 @@ class GltfFile:
         self.header: Json = _header(text)
         self._buffers: dict[int, bytes] = {}
         self._files: dict[str, bytes] = {}
-        self.vectors: dict[int, NDArray[np.float64]] = {}
+        self.vectors: dict[int, Floats] = {}
         self.unpacked: dict[object, Any] = {}
         stored = len(text) + len(self._binary or b"")
         self.values: limits.Budget = limits.Budget("the numbers in its accessors", 1_000_000, 2.0, stored=stored)

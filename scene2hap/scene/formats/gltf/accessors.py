@@ -11,16 +11,17 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats, Ints
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.formats.gltf_container import GltfFile, Json, natural
-from scene2hap.scene.formats.gltf_meshopt import decoded_view, meshopt_row
+from scene2hap.scene.formats.gltf.container import GltfFile, Json, natural
+from scene2hap.scene.formats.gltf.meshopt import decoded_view, meshopt_row
 
 _DTYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 
 
-def vectors(file: GltfFile, number: object, types: tuple[str, ...], what: str) -> NDArray[np.float64]:
+def vectors(file: GltfFile, number: object, types: tuple[str, ...], what: str) -> Floats:
     """Return values (n, columns) float64 of an accessor of one of these types. Messages call them `what`."""
     row = file.row("accessors", number, what)
     # Primitives share accessors, so each is read once.
@@ -32,13 +33,13 @@ def vectors(file: GltfFile, number: object, types: tuple[str, ...], what: str) -
     return file.vectors[id(row)]
 
 
-def _as_float64(values: NDArray[np.generic]) -> NDArray[np.float64]:
+def _as_float64(values: NDArray[np.generic]) -> Floats:
     # A signalling NaN of damaged data warns in the cast; numbers that are not finite are refused later.
     with np.errstate(invalid="ignore"):
         return values.astype(np.float64)
 
 
-def unpacked(values: NDArray[np.generic]) -> NDArray[np.float64]:
+def unpacked(values: NDArray[np.generic]) -> Floats:
     """Divide whole numbers by the largest number of their type. Other numbers are unchanged."""
     result = _as_float64(values)
     if values.dtype.kind not in "iu":
@@ -47,7 +48,7 @@ def unpacked(values: NDArray[np.generic]) -> NDArray[np.float64]:
     return np.maximum(result / np.iinfo(np.dtype(values.dtype.str)).max, -1.0)
 
 
-def indices(file: GltfFile, number: object, place: str) -> NDArray[np.int64]:
+def indices(file: GltfFile, number: object, place: str) -> Ints:
     """Return the vertex numbers (n,) of an accessor."""
     values, row = _values(file, number, place)
     if row.get("type") != "SCALAR" or values.dtype.kind != "u":

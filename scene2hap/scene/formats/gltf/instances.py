@@ -9,8 +9,8 @@ import numpy as np
 
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.formats.gltf_accessors import vectors
-from scene2hap.scene.formats.gltf_container import GltfFile, Json, mapping
+from scene2hap.scene.formats.gltf.accessors import vectors
+from scene2hap.scene.formats.gltf.container import GltfFile, Json, mapping
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.tree import Matrix, transform
 

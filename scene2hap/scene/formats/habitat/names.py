@@ -27,8 +27,8 @@ from scene2hap.common.printable import writable
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.files import decoded, read_bytes
-from scene2hap.scene.formats.habitat_dataset import plain_name
-from scene2hap.scene.formats.habitat_folder import DatasetFolder, read_object
+from scene2hap.scene.formats.habitat.dataset import plain_name
+from scene2hap.scene.formats.habitat.folder import DatasetFolder, read_object
 
 Names = Mapping[str, str] | str | os.PathLike[str]
 """Names by template, or the path of a table of them."""

@@ -9,8 +9,8 @@ import numpy as np
 
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.formats import meshopt_codec
-from scene2hap.scene.formats.gltf_container import GltfFile, Json, mapping, natural
+from scene2hap.scene.formats.gltf import meshopt_codec, meshopt_filters
+from scene2hap.scene.formats.gltf.container import GltfFile, Json, mapping, natural
 
 MESHOPT = ("KHR_meshopt_compression", "EXT_meshopt_compression")
 _INDEX_BYTES = (2, 4)
@@ -57,7 +57,7 @@ def _decoded(file: GltfFile, row: Json, place: str) -> memoryview:
         if mode == "ATTRIBUTES":
             elements = meshopt_codec.attributes(data, count, stride)
             if filter_name != "NONE":
-                elements = meshopt_codec.filtered(elements, str(filter_name))
+                elements = meshopt_filters.filtered(elements, str(filter_name))
             return memoryview(elements.tobytes())
         if mode not in ("TRIANGLES", "INDICES"):
             raise ValueError(f"mode {mode!r}; it must be ATTRIBUTES, TRIANGLES or INDICES")

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from scene2hap.common import checks
 from scene2hap.errors import SceneError, SceneFormatError
-from scene2hap.scene.formats.gltf_accessors import view
-from scene2hap.scene.formats.gltf_container import GltfFile, Json, data_uri, mapping, natural
+from scene2hap.scene.formats.gltf.accessors import view
+from scene2hap.scene.formats.gltf.container import GltfFile, Json, data_uri, mapping, natural
 from scene2hap.scene.looks.appearance import FaceMaterial, srgb
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.looks.textures import EncodedTexture

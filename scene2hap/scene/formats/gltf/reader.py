@@ -2,7 +2,7 @@
 
 Nodes are identified by their number in the file, so an object stays the same on every load, even if its name changes.
 Cameras, lights, animations and hidden nodes are left out. Skinned meshes and morph targets have their stored pose
-(`gltf_deformation`). Each copy of an instanced mesh is a node.
+(`gltf.deformation`). Each copy of an instanced mesh is a node.
 
 Source: glTF 2.0 specification, sections 3.5 (scenes and nodes) and 3.7 (meshes); KHR_node_visibility.
 """
@@ -14,17 +14,17 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats, Ints
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.formats.gltf_accessors import indices, vectors
-from scene2hap.scene.formats.gltf_container import GltfFile, Json, mapping, natural
-from scene2hap.scene.formats.gltf_deformation import Deformation, Deformations
-from scene2hap.scene.formats.gltf_draco import DRACO, draco
-from scene2hap.scene.formats.gltf_instances import INSTANCES, instances
-from scene2hap.scene.formats.gltf_materials import GltfMaterials, TexturedMaterial
+from scene2hap.scene.formats.gltf.accessors import indices, vectors
+from scene2hap.scene.formats.gltf.container import GltfFile, Json, mapping, natural
+from scene2hap.scene.formats.gltf.deformation import Deformation, Deformations
+from scene2hap.scene.formats.gltf.draco import DRACO, draco
+from scene2hap.scene.formats.gltf.instances import INSTANCES, instances
+from scene2hap.scene.formats.gltf.materials import GltfMaterials, TexturedMaterial
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial, painted, srgb
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.pose import Pose
@@ -35,7 +35,7 @@ _FLOAT = 5126
 # Vertex colours above this do not change a material.
 _NEARLY_WHITE = 0.999
 
-_Attribute = Callable[[str, tuple[str, ...]], NDArray[np.float64]]
+_Attribute = Callable[[str, tuple[str, ...]], Floats]
 """Function from an attribute's name and its allowed types to the attribute's values (n, columns) in a primitive."""
 
 
@@ -161,7 +161,7 @@ class _Reader:
             points, faces = mesh.points, mesh.faces
             self._file.triangles.spend(len(faces), place)
 
-            def attribute(name: str, types: tuple[str, ...]) -> NDArray[np.float64]:
+            def attribute(name: str, types: tuple[str, ...]) -> Floats:
                 return mesh.vectors(numbers.get(name), f"{place}: its {name}")
 
         else:
@@ -170,7 +170,7 @@ class _Reader:
             self._file.triangles.spend(len(order) // 3 if mode == _TRIANGLES else max(len(order) - 2, 0), place)
             faces = _triangles(order, mode)
 
-            def attribute(name: str, types: tuple[str, ...]) -> NDArray[np.float64]:
+            def attribute(name: str, types: tuple[str, ...]) -> Floats:
                 return vectors(self._file, attributes.get(name), types, f"{place}: its {name}")
 
         if deformation.key:
@@ -185,14 +185,14 @@ class _Reader:
     def _looks(
         self,
         paint: TexturedMaterial | None,
-        faces: NDArray[np.int64],
+        faces: Ints,
         n_points: int,
         attribute: _Attribute,
         is_colored: bool,
     ) -> Appearance | None:
         """Return the looks of a primitive; None if the file has none."""
 
-        def corners(name: str, types: tuple[str, ...], columns: slice) -> NDArray[np.float64] | None:
+        def corners(name: str, types: tuple[str, ...], columns: slice) -> Floats | None:
             """Return an attribute at each corner (m, 3, columns). If it is broken: None, and the reason is recorded."""
             try:
                 values = attribute(name, types)[:, columns]
@@ -227,7 +227,7 @@ def _roots(file: GltfFile) -> list[int]:
     return [number for number in range(len(file.table("nodes"))) if number not in below]
 
 
-def _triangles(order: NDArray[np.int64], mode: int) -> NDArray[np.int64]:
+def _triangles(order: Ints, mode: int) -> Ints:
     """Return faces (m, 3) of vertex numbers in the order of a list, strip or fan of triangles."""
     if mode == _TRIANGLES:
         return order[: len(order) // 3 * 3].reshape(-1, 3)
@@ -239,7 +239,7 @@ def _triangles(order: NDArray[np.int64], mode: int) -> NDArray[np.int64]:
     faces[1::2] = faces[1::2, [0, 2, 1]]
     # Degenerate triangles, which use a vertex twice, join strips.
     joins = (faces == np.roll(faces, 1, axis=1)).any(axis=1)
-    kept: NDArray[np.int64] = faces[~joins]
+    kept: Ints = faces[~joins]
     return kept
 
 
@@ -253,7 +253,7 @@ def _matrix(row: Json, place: str) -> Matrix:
         matrix[3] = 0, 0, 0, 1
         return matrix
 
-    def numbers(key: str, default: float) -> NDArray[np.float64]:
+    def numbers(key: str, default: float) -> Floats:
         given = row.get(key, [default] * 3)
         return np.array(checks.vector(f"{place}.{key}", given, "-", size=3, error=SceneFormatError))
 

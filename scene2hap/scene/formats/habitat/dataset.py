@@ -31,15 +31,15 @@ from typing import Any, Literal
 from urllib.parse import quote
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.common.printable import quoted, writable
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.files import inside
-from scene2hap.scene.formats.habitat_folder import DatasetFolder, Json, is_file, resolved, with_slashes
+from scene2hap.scene.formats.habitat.folder import DatasetFolder, Json, is_file, resolved, with_slashes
 from scene2hap.scene.tree import Matrix
 
 Kind = Literal["objects", "stages", "articulated_objects"]
@@ -70,9 +70,9 @@ class Template:
 
     place: str
     model: Path | None
-    scale: NDArray[np.float64]
+    scale: Floats
     frame: Matrix
-    com: NDArray[np.float64] | None = None
+    com: Floats | None = None
     mass_kg: float | None = None
 
 
@@ -221,7 +221,7 @@ class Dataset:
         return {key: value for key, value in given.items() if key != "mass"}
 
     def _template(self, kind: Kind, attributes: Json, folder: Path, place: str, name: str) -> Template:
-        def numbers(key: str, default: tuple[float, ...]) -> NDArray[np.float64]:
+        def numbers(key: str, default: tuple[float, ...]) -> Floats:
             return np.array(
                 checks.vector(f"{place}: {key}", attributes.get(key, default), "-", size=3, error=SceneFormatError)
             )
@@ -302,7 +302,7 @@ def plain_name(template: str) -> str:
     return _plain(template).rpartition("/")[2]
 
 
-def scale_of(place: str, given: object) -> NDArray[np.float64]:
+def scale_of(place: str, given: object) -> Floats:
     """Return a scale (3,); as in Habitat, a negative one mirrors. Raises: SceneFormatError: it is 0 along an axis."""
     scale = checks.vector(place, given, "-", size=3, error=SceneFormatError)
     if 0.0 in scale:
@@ -327,7 +327,7 @@ def _key(kind: Kind) -> str:
     return "urdf_filepath" if kind == "articulated_objects" else "render_asset"
 
 
-def _frame(up: NDArray[np.float64], front: NDArray[np.float64]) -> Matrix:
+def _frame(up: Floats, front: Floats) -> Matrix:
     """Return the rotation of `up` to Y and `front` to -Z; the identity if they are not perpendicular, as in Habitat."""
     matrix: Matrix = np.eye(4)
     with np.errstate(all="ignore"):

@@ -19,9 +19,9 @@ from gltf_reading import header_and_buffer
 from laundry import IDS
 from scene2hap import SceneSnapshot, load_scene
 from scene2hap.errors import Scene2HapError, SceneError, SceneFormatError
-from scene2hap.scene.formats import meshopt_codec
+from scene2hap.scene.formats.gltf import meshopt_codec, meshopt_filters
 
-DATA = Path(__file__).parents[3] / "data" / "meshopt"
+DATA = Path(__file__).parents[4] / "data" / "meshopt"
 STREAMS: list[dict[str, Any]] = json.loads((DATA / "streams.json").read_text(encoding="utf-8"))
 EXT = "EXT_meshopt_compression"
 # A step of gltfpack's 14 bits over the 3 m of the laundry, and of 15 bits of mantissa, in metres.
@@ -32,7 +32,7 @@ def decoded(row: dict[str, Any], data: bytes) -> bytes:
     count, stride = row["count"], row["stride"]
     if row["mode"] == "ATTRIBUTES":
         elements = meshopt_codec.attributes(data, count, stride)
-        return (elements if row["filter"] == "NONE" else meshopt_codec.filtered(elements, row["filter"])).tobytes()
+        return (elements if row["filter"] == "NONE" else meshopt_filters.filtered(elements, row["filter"])).tobytes()
     decode = meshopt_codec.triangles if row["mode"] == "TRIANGLES" else meshopt_codec.indices
     return decode(data, count).astype(f"<u{stride}").tobytes()
 

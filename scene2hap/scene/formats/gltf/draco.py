@@ -14,9 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats, Ints
 from scene2hap.errors import MissingExtra, SceneFormatError
-from scene2hap.scene.formats.gltf_accessors import unpacked, view
-from scene2hap.scene.formats.gltf_container import GltfFile, Json
+from scene2hap.scene.formats.gltf.accessors import unpacked, view
+from scene2hap.scene.formats.gltf.container import GltfFile, Json
 
 DRACO = "KHR_draco_mesh_compression"
 _VERSION = (2, 2)
@@ -27,11 +28,11 @@ _MESH, _EDGEBREAKER, _HAS_METADATA = 1, 1, 0x8000
 class DracoMesh:
     """A decoded primitive: positions (n, 3) float64, triangles (m, 3) int64, and other attributes by their number."""
 
-    points: NDArray[np.float64]
-    faces: NDArray[np.int64]
+    points: Floats
+    faces: Ints
     _attributes: dict[int, NDArray[Any]]
 
-    def vectors(self, number: object, what: str) -> NDArray[np.float64]:
+    def vectors(self, number: object, what: str) -> Floats:
         """Return the values (n, columns) of an attribute. Whole numbers are divided by the largest of their type.
 
         Raises: SceneFormatError: there is no attribute of that number; the message begins with `what`.

@@ -15,7 +15,7 @@
 5. Left out with a warning: shapes without a file, which Habitat generates. Left out without a warning: rows whose
    `is_instance_visible` is false. As in Habitat, a translation or rotation of the stage is not applied; it causes a
    warning, and so do joints that do not begin at 0.
-6. The name of an object comes from `scene2hap.scene.formats.habitat_names`, else from its template. The model of a
+6. The name of an object comes from `scene2hap.scene.formats.habitat.names`, else from its template. The model of a
    template is read once.
 
 Sources: "Using JSON Files to configure Attributes" (https://aihabitat.org/docs/habitat-sim/attributesJSON.html), and in
@@ -35,18 +35,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.common.counted import first_of
 from scene2hap.common.printable import writable
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.formats.habitat_dataset import Dataset, Kind, Template, rows_of, scale_of
-from scene2hap.scene.formats.habitat_folder import Json, read_object
-from scene2hap.scene.formats.habitat_names import Names, ObjectNames
-from scene2hap.scene.geometry import Bounds, bounds_of, joined
+from scene2hap.scene.formats.habitat.dataset import Dataset, Kind, Template, rows_of, scale_of
+from scene2hap.scene.formats.habitat.folder import Json, read_object
+from scene2hap.scene.formats.habitat.names import Names, ObjectNames
+from scene2hap.scene.geometry import Bounds, bounds_of, corners_of, joined
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, transform, with_own_keys
 
@@ -120,7 +120,7 @@ class _Reader:
         self._name, self._document, self._dataset, self._names = name, document, dataset, names
         self._read_model = read_model
         self._models: dict[Path, _Model] = {}
-        self._middles: dict[Template, NDArray[np.float64]] = {}
+        self._middles: dict[Template, Floats] = {}
         self._size = limits.TreeSize()
         # All models share one budget. With a budget each, thousands of small files could have a million triangles each.
         self._stored = limits.Budget("the triangles of its models", 1_000_000, 1.0)
@@ -167,7 +167,7 @@ class _Reader:
         mass_kg = _mass(row, place, template.mass_kg or _links_kg(model), abs(float(np.prod(scale))))
         return AuthoredNode(name, matrix, (), model.roots, is_object=True, mass_kg=mass_kg)
 
-    def _middle(self, template: Template, model: _Model) -> NDArray[np.float64]:
+    def _middle(self, template: Template, model: _Model) -> Floats:
         if template not in self._middles:
             box = _turned_box(AuthoredNode("", template.frame, (), model.roots))
             self._middles[template] = np.zeros(3) if box is None else box.mean(axis=0)
@@ -253,12 +253,12 @@ def _template(dataset: Dataset, kind: Kind, place: str, row: Json) -> Template |
     return dataset.template(kind, writable(name), place)
 
 
-def _translation(row: Json, place: str) -> NDArray[np.float64]:
+def _translation(row: Json, place: str) -> Floats:
     given = row.get("translation", (0.0, 0.0, 0.0))
     return np.array(checks.vector(f"{place}.translation", given, "m", size=3, error=SceneFormatError))
 
 
-def _rotation(row: Json, place: str) -> NDArray[np.float64]:
+def _rotation(row: Json, place: str) -> Floats:
     """Return the rotation (3, 3) of a row, whose quaternion begins with w."""
     given = row.get("rotation", (1.0, 0.0, 0.0, 0.0))
     w, x, y, z = checks.vector(f"{place}.rotation", given, "-", size=4, error=SceneFormatError)
@@ -268,7 +268,7 @@ def _rotation(row: Json, place: str) -> NDArray[np.float64]:
         raise SceneFormatError(f"{place}.rotation (w, x, y, z): {cause}") from cause
 
 
-def _scale(row: Json, place: str) -> NDArray[np.float64]:
+def _scale(row: Json, place: str) -> Floats:
     """Return the scale (3,) of a row, to be multiplied by its template's."""
     given = row.get("uniform_scale", 1.0)
     uniform = checks.number(f"{place}.uniform_scale", given, "-", above=0.0, error=SceneFormatError)
@@ -311,9 +311,7 @@ def _turned_box(node: AuthoredNode) -> Bounds | None:
     boxes += [box for child in node.children if (box := _turned_box(child)) is not None]
     if not boxes:
         return None
-    box = joined(boxes)
-    corners = np.array([[x, y, z] for x in box[:, 0] for y in box[:, 1] for z in box[:, 2]])
-    return bounds_of(corners @ node.matrix[:3, :3].T + node.matrix[:3, 3])
+    return bounds_of(corners_of(joined(boxes)) @ node.matrix[:3, :3].T + node.matrix[:3, 3])
 
 
 def _with_parts(file: Path) -> list[Path]:

@@ -1,10 +1,10 @@
-"""Decoders of meshopt data: attributes (versions 0 and 1), triangles, indices, and their filters.
+"""Decoders of meshopt data: attributes (versions 0 and 1), triangles and indices.
 
 We do not use the PyPI package `meshoptimizer` (0.2.30a0): it is an alpha release without wheels, and installing it
 takes a C++ compiler. Data is untrusted. Every read is checked against the end of the data, and no allocation exceeds
 the size that the caller requested. Callers bound `count * stride`.
 
-Source: glTF extensions EXT_meshopt_compression and KHR_meshopt_compression, appendices "Bitstream" and "Filters".
+Source: glTF extensions EXT_meshopt_compression and KHR_meshopt_compression, appendix "Bitstream".
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-_Bytes = NDArray[np.uint8]
+from scene2hap.common.arrays import Bytes
 
 # First bytes of data: kind of codec and version.
 _ATTRIBUTES, _TRIANGLES, _INDICES = (0xA0, 0xA1), 0xE1, 0xD1
@@ -38,7 +38,7 @@ _CODES_BEHIND_TRIANGLES, _BYTES_BEHIND_INDICES = 16, 4
 _WORD = 0xFFFFFFFF
 
 
-def attributes(data: bytes, count: int, stride: int) -> _Bytes:
+def attributes(data: bytes, count: int, stride: int) -> Bytes:
     """Decode elements (count, stride) of attribute data; `stride` in bytes is a multiple of 4 up to 256.
 
     Raises: ValueError: the data is broken.
@@ -127,7 +127,7 @@ class _GroupReader:
             self._sizes[width] = sizes.tobytes()
         return self._sizes[width]
 
-    def unpack(self) -> _Bytes:
+    def unpack(self) -> Bytes:
         """Return the deltas (n, 16) of all groups found since the last call."""
         starts, bits = np.array(self._starts, np.int64), np.array(self._bits, np.uint8)
         self._starts, self._bits = [], []
@@ -147,7 +147,7 @@ class _GroupReader:
         return deltas
 
 
-def _fields(width: int) -> _Bytes:
+def _fields(width: int) -> Bytes:
     """Return the fields (256, 8 / width) of each byte. Single bits begin with the lowest, others with the highest."""
     shifts = np.arange(8) if width == 1 else np.arange(8 - width, -1, -width)
     return (np.arange(256)[:, None] >> shifts & ((1 << width) - 1)).astype(np.uint8)
@@ -158,7 +158,7 @@ _FIELDS = {width: _fields(width) for width in (1, 2, 4)}
 _N_FULL = {width: (fields == (1 << width) - 1).sum(axis=1).astype(np.uint8) for width, fields in _FIELDS.items()}
 
 
-def _summed(deltas: _Bytes, first: _Bytes, channels: bytes) -> _Bytes:
+def _summed(deltas: Bytes, first: Bytes, channels: bytes) -> Bytes:
     """Return elements (n, stride) from deltas (stride, n). Each word is a difference from the element before it."""
     stride, n = deltas.shape
     if all(channel & 3 == 0 for channel in channels):
@@ -328,87 +328,3 @@ def indices(data: bytes, count: int) -> NDArray[np.uint32]:
     steps = values >> 1 ^ -(values & 1)
     sums = [np.cumsum(np.where(baseline == i, steps, 0)) for i in (0, 1)]
     return (np.where(baseline == 1, sums[1], sums[0]) & _WORD).astype(np.uint32)
-
-
-def filtered(elements: _Bytes, name: str) -> _Bytes:
-    """Undo a filter of elements (n, stride): OCTAHEDRAL, QUATERNION, EXPONENTIAL or COLOR.
-
-    Raises: ValueError: there is no such filter, or none for elements of this stride.
-    """
-    if name not in _FILTERS:
-        raise ValueError(f"filter {name!r}; it must be NONE, {', '.join(_FILTERS)}")
-    undo, strides = _FILTERS[name]
-    stride = elements.shape[1]
-    if stride not in strides:
-        known = " or ".join(map(str, strides))
-        raise ValueError(f"filter {name} of elements of {stride} bytes; they must have {known}")
-    # Broken values divide by zero and overflow. The code that uses them refuses the results.
-    with np.errstate(all="ignore"):
-        return np.ascontiguousarray(undo(elements)).view(np.uint8)
-
-
-def _octahedral(elements: _Bytes) -> NDArray[Any]:
-    """Return unit vectors from points on an unfolded octahedron; the fourth number is unchanged."""
-    dtype = np.dtype("<i1" if elements.shape[1] == 4 else "<i2")
-    stored = elements.view(dtype)
-    largest = np.iinfo(dtype).max
-    xy, one = stored[:, :2].astype(np.float64), stored[:, 2:3]
-    xy /= one
-    z = 1.0 - np.abs(xy).sum(axis=1, keepdims=True)
-    fold = np.maximum(-z, 0.0)
-    vectors = np.concatenate((xy - np.where(xy >= 0, fold, -fold), z), axis=1)
-    result = stored.copy()
-    result[:, :3] = _whole(vectors * (largest / np.linalg.norm(vectors, axis=1, keepdims=True)), dtype)
-    return result
-
-
-def _quaternion(elements: _Bytes) -> NDArray[Any]:
-    """Return unit quaternions from their three smaller components. The fourth number holds their scale, and the place
-    of the largest component."""
-    stored = elements.view("<i2").astype(np.int64)
-    scale = np.sqrt(0.5) / (stored[:, 3] | 3)
-    small = stored[:, :3] * scale[:, None]
-    largest = np.sqrt(np.maximum(0.0, 1.0 - (small**2).sum(axis=1)))
-    result = np.empty((len(stored), 4), "<i2")
-    rows, place = np.arange(len(stored)), stored[:, 3] & 3
-    for i in range(3):
-        result[rows, (place + 1 + i) & 3] = _whole(small[:, i] * 32767.0, result.dtype)
-    result[rows, place] = _whole(largest * 32767.0, result.dtype)
-    return result
-
-
-def _exponential(elements: _Bytes) -> NDArray[Any]:
-    """Return floating-point numbers from 8 bits of exponent above 24 bits of mantissa."""
-    stored = elements.view("<i4")
-    mantissa = (stored << 8) >> 8
-    values: NDArray[Any] = np.ldexp(mantissa.astype(np.float64), stored >> 24).astype("<f4")
-    return values
-
-
-def _color(elements: _Bytes) -> NDArray[Any]:
-    """Return RGBA from YCoCg and alpha. The highest bit of alpha shows how many bits all channels have."""
-    bits = 2 * elements.shape[1]
-    unsigned, signed = elements.view(f"<u{bits // 8}").astype(np.int64), elements.view(f"<i{bits // 8}")
-    y, alpha = unsigned[:, 0], unsigned[:, 3]
-    co, cg = signed[:, 1].astype(np.int64), signed[:, 2].astype(np.int64)
-    # frexp gives the number of bits of a whole number, 0 for 0.
-    largest = (1 << np.frexp(alpha)[1].astype(np.int64)) - 1
-    kept = alpha & (largest >> 1)
-    rgba = np.stack((y + co - cg, y + cg, y - co - cg, kept << 1 | kept & 1), axis=1)
-    return _whole(rgba * (((1 << bits) - 1) / largest[:, None]), np.dtype(f"<u{bits // 8}"))
-
-
-def _whole(values: NDArray[np.float64], dtype: np.dtype[Any]) -> NDArray[Any]:
-    """Round numbers to a whole-number type. Numbers that are not finite become 0, others are clipped to the type's
-    range."""
-    bound = np.iinfo(dtype)
-    rounded = np.floor(np.nan_to_num(values, nan=0.0, posinf=0.0, neginf=0.0) + 0.5)
-    return np.clip(rounded, bound.min, bound.max).astype(dtype)
-
-
-_FILTERS = {
-    "OCTAHEDRAL": (_octahedral, (4, 8)),
-    "QUATERNION": (_quaternion, (8,)),
-    "EXPONENTIAL": (_exponential, tuple(range(4, 257, 4))),
-    "COLOR": (_color, (4, 8)),
-}

@@ -18,8 +18,8 @@ from scene2hap.common import checks
 from scene2hap.common.arrays import Floats
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.formats.gltf_accessors import vectors
-from scene2hap.scene.formats.gltf_container import GltfFile, Json, mapping, natural
+from scene2hap.scene.formats.gltf.accessors import vectors
+from scene2hap.scene.formats.gltf.container import GltfFile, Json, mapping, natural
 from scene2hap.scene.tree import Matrix
 
 

@@ -13,8 +13,8 @@ from gltf_builder import CUBE, CUBE_FACES, Gltf, one_cube
 from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.formats.gltf import read_gltf
-from scene2hap.scene.formats.gltf_accessors import unpacked
+from scene2hap.scene.formats.gltf.accessors import unpacked
+from scene2hap.scene.formats.gltf.reader import read_gltf
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.shapes import TriMesh
@@ -58,13 +58,16 @@ def test_a_buffer_may_stand_in_the_header(tmp_path: Path) -> None:
     assert load_scene(path).object("cube").size_m == pytest.approx((1.0, 1.0, 1.0))
 
 
-def test_a_file_name_in_the_header_may_be_quoted(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("uri", "stored"), [("my%20parts/a+b.bin", "my parts/a+b.bin"), ("my parts\\a.bin", "my parts/a.bin")]
+)
+def test_a_file_name_in_the_header_may_be_quoted_and_have_either_slash(tmp_path: Path, uri: str, stored: str) -> None:
+    """Exporters on Windows write backslashes, which browsers read as slashes."""
     gltf = one_cube()
-    (tmp_path / "my parts").mkdir()
-    (tmp_path / "my parts" / "a+b.bin").write_bytes(bytes(gltf.buffer))
-    gltf.header["buffers"][0]["uri"] = "my%20parts/a+b.bin"
-    path = tmp_path / "cube.gltf"
-    path.write_text(json.dumps(gltf.header), encoding="utf-8")
+    gltf.header["buffers"][0]["uri"] = uri
+    path = gltf.write(tmp_path / "cube.gltf")
+    (tmp_path / stored).parent.mkdir(exist_ok=True)
+    (tmp_path / "cube.bin").rename(tmp_path / stored)
     assert len(load_scene(path).objects) == 1
 
 

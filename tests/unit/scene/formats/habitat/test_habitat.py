@@ -15,7 +15,7 @@ from habitat_builder import CHAIR, DATASET, HASH, Dataset, corner_box, instance,
 from others import SCENES, needed
 from scene2hap import SceneWarning
 from scene2hap.errors import SceneError
-from scene2hap.scene.formats.habitat import referenced_files
+from scene2hap.scene.formats.habitat.reader import referenced_files
 from scene2hap.scene.load import TextureWarning, UnitWarning, load_scene
 
 QUARTER = [0.5**0.5, 0.0, 0.5**0.5, 0.0]
@@ -65,16 +65,16 @@ def test_equal_piece_numbers_of_two_models_are_distinguished(dataset: Dataset) -
 
 
 def test_a_model_is_read_once(dataset: Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
-    from scene2hap.scene.formats import gltf
+    from scene2hap.scene.formats.gltf import reader
 
     opened: list[str] = []
-    read = gltf.read_gltf
+    read = reader.read_gltf
 
     def counting(path: Path, root: Path) -> Any:
         opened.append(path.name)
         return read(path, root)
 
-    monkeypatch.setattr(gltf, "read_gltf", counting)
+    monkeypatch.setattr(reader, "read_gltf", counting)
     loaded(dataset.scene(*(instance(at=[i, 0, 0], uniform_scale=1 + i) for i in range(20))))
     assert sorted(opened) == [f"{CHAIR}.glb", "home.glb"]
 

@@ -1,0 +1,1 @@
+"""glTF and GLB files: container, arrays, compression, skins, instances and materials."""

@@ -1,0 +1,1 @@
+"""Habitat scenes: the scene, its dataset of templates, and names of templates."""
