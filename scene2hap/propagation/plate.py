@@ -26,7 +26,7 @@ MAX_FREQUENCY_HZ = 1e9
 """Highest valid frequency [Hz], far beyond any vibration; assumed, so that squares of frequencies do not overflow."""
 
 _SIZES_M = {"at_least": 1e-30, "at_most": 1e6}
-"""Bounds on sizes [m], far beyond any plate; assumed, so that third powers of sizes do not under- or overflow."""
+"""Bounds on sizes [m], far beyond any object; assumed, so that third powers of sizes do not under- or overflow."""
 
 _EDGES = {"free": "FFFF", "simply-supported": "SSSS", "clamped": "CCCC"}
 
@@ -202,9 +202,9 @@ def require_plate(plate: object) -> None:
 class RigidBody:
     """A compact body, such as a mug, that moves as a whole and does not bend.
 
-    Parameters: mass_kg > 0 [kg]; size_m : length, width, thickness > 0 [m] of a box with the body's inertia in rocking,
-    None for a body that does not rock; material : material of its contact surface, None if unknown.
-    Raises: ModelDomainError: a mass or size that is not positive and finite.
+    Parameters: mass_kg > 0 [kg]; size_m : length, width, thickness [m], 1e-30..1e6, of a box with the body's inertia in
+    rocking, None for a body that does not rock; material : material of its contact surface, None if unknown.
+    Raises: ModelDomainError: a mass that is not positive and finite, or a size out of bounds.
     """
 
     mass_kg: float
@@ -222,6 +222,8 @@ class RigidBody:
         object.__setattr__(self, "mass_kg", mass)
         if self.size_m is not None:
             size = checks.vector("size_m", self.size_m, "m", size=3, above=0.0, error=ModelDomainError)
+            for i, side in enumerate(size):
+                checks.number(f"size_m[{i}]", side, "m", **_SIZES_M, error=ModelDomainError)
             object.__setattr__(self, "size_m", size)
 
     @property
