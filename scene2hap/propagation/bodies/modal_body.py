@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 from scene2hap.common.arrays import Complex, Floats
 from scene2hap.common.caches import ByteBoundedLru, cached_while_used
 from scene2hap.propagation.bands.octaves import OctaveSums
-from scene2hap.propagation.bodies.infinite_body import InfiniteBody
+from scene2hap.propagation.bodies.infinite_body import InfiniteBody, SplitBody
 from scene2hap.propagation.bodies.many_joints import among, has_many, parts_of
-from scene2hap.propagation.bodies.split_body import SplitBody
 from scene2hap.propagation.elastic_body import AnyFloat, SeparatedReceptance, mirrored
 from scene2hap.propagation.modal.modes import FINE, MARGIN, QUICK_BLOCK, Fineness, largest_block
 from scene2hap.propagation.modal.near_field import NearField

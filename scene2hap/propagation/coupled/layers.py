@@ -29,9 +29,8 @@ from operator import itemgetter
 import numpy as np
 
 from scene2hap.contact.junction import Pair, pair_of
-from scene2hap.propagation.bodies.rigid import is_compact
+from scene2hap.propagation.bodies.idealisation import is_compact, no_heavier_than_object
 from scene2hap.propagation.coupled.contact_stiffness import STANDARD_GRAVITY_M_S2, ContactLaw
-from scene2hap.propagation.coupled.hollow import no_heavier_than_object
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork
 from scene2hap.scene.geometry import Vector, dot

@@ -30,7 +30,7 @@ from scene2hap.propagation.lattice.bending_lattice import MOST_NODES, bending_la
 from scene2hap.propagation.lattice.block_lanczos import largest
 from scene2hap.propagation.lattice.factors import Factors, positive_factors
 from scene2hap.propagation.lattice.lattice import Lattice
-from scene2hap.propagation.modal.modes import n_modes_to, n_rigid_motions, wavenumber_of_mode
+from scene2hap.propagation.modal.estimates import n_modes_to, n_rigid_motions, wavenumber_of_mode
 from scene2hap.propagation.plate import Plate
 
 MARGIN = 1.5

@@ -14,10 +14,10 @@ from scene2hap.propagation.bands.band_shapes import CLOSE, band_gains
 from scene2hap.propagation.bands.octaves import OctaveSums
 from scene2hap.propagation.bands.sampling import Sampling
 from scene2hap.propagation.bodies import modal_body
+from scene2hap.propagation.bodies.infinite_body import SplitBody
 from scene2hap.propagation.bodies.lattice_body import lattice_body
 from scene2hap.propagation.bodies.modal_body import ModalBody
 from scene2hap.propagation.bodies.rigid import RigidMotion
-from scene2hap.propagation.bodies.split_body import SplitBody
 from scene2hap.propagation.elastic_body import contracted, pieces
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 from scene2hap.propagation.protocol import ExpectantField
