@@ -144,7 +144,7 @@ class ExponentialPlate:
             top_hz = max(bands.edges_hz, default=max((self.frequency_hz(item) for item in excitations), default=0.0))
             for object_id, body in bodies.items():
                 if isinstance(body, Plate):
-                    check_thin(object_id, body, top_hz, self.outside_domain)
+                    check_thin(body, top_hz, self.outside_domain, object_id)
         return {object_id: cost_per_m(body) for object_id, body in bodies.items()}
 
     def crossing_cost(self, weight: float) -> float:

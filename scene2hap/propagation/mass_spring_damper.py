@@ -139,8 +139,11 @@ class MassSpringDamper(PhysicalModel):
         Returns: (n_points, n_samples) float64 [m]; the first sample has the static response of the higher modes only.
         """
         force = floats("force_n", force_n, "N", error=ModelDomainError)
-        if force.ndim != 1 or not np.isfinite(force).all():
-            raise ModelDomainError(f"force_n has shape {force.shape}; it must be (n_samples,) finite numbers [N].")
+        if force.ndim != 1:
+            raise ModelDomainError(f"force_n has shape {force.shape}; it must be (n_samples,) [N].")
+        if not np.isfinite(force).all():
+            first = np.flatnonzero(~np.isfinite(force))[0]
+            raise ModelDomainError(f"force_n[{first}] is {force[first]:g} N; it must be finite [N].")
         rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=ModelDomainError)
         drive, points = points_on(plate, drive_m), points_on(plate, points_m)
         top = as_frequencies(max_frequency_hz)

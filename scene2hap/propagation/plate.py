@@ -180,6 +180,11 @@ class Plate:
         k: NDArray[np.float64] = self.wavenumber_per_root_omega * np.sqrt(2 * math.pi * f)
         return k
 
+    def frequency_hz(self, wavenumber_rad_m: float) -> float:
+        """Return the frequency at which free bending waves have a wavenumber [rad/m], the inverse of
+        `wavenumber_rad_m`."""
+        return (wavenumber_rad_m / self.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
+
 
 def require_frequencies(name: str, frequencies_hz: NDArray[np.float64]) -> None:
     """Raise a ModelDomainError unless all frequencies are 0 to `MAX_FREQUENCY_HZ` [Hz]."""
@@ -221,12 +226,20 @@ class RigidBody:
         mass = checks.number("mass_kg", self.mass_kg, "kg", above=0.0, error=ModelDomainError)
         object.__setattr__(self, "mass_kg", mass)
         if self.size_m is not None:
-            size = checks.vector("size_m", self.size_m, "m", size=3, above=0.0, error=ModelDomainError)
+            hint = "None is a body that does not rock."
+            size = checks.vector("size_m", self.size_m, "m", size=3, above=0.0, error=ModelDomainError, hint=hint)
             for i, side in enumerate(size):
-                checks.number(f"size_m[{i}]", side, "m", **_SIZES_M, error=ModelDomainError)
+                checks.number(f"size_m[{i}]", side, "m", **_SIZES_M, error=ModelDomainError, hint=hint)
             object.__setattr__(self, "size_m", size)
 
     @property
     def moving_mass_kg(self) -> float:
         """Mass [kg]; see `Plate.moving_mass_kg`."""
         return self.mass_kg
+
+
+def sides_m(body: Plate | RigidBody | None) -> tuple[float, float] | None:
+    """Length and width of a body [m], None without a size."""
+    if isinstance(body, Plate):
+        return body.length_m, body.width_m
+    return None if body is None or body.size_m is None else body.size_m[:2]

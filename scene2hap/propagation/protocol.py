@@ -18,7 +18,7 @@ from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.plugins import Members, lacking
-from scene2hap.propagation.plate import Plate, RigidBody
+from scene2hap.propagation.plate import Plate, RigidBody, sides_m
 from scene2hap.propagation.points import InRectangle, object_points
 from scene2hap.scene.geometry import Vector
 from scene2hap.scene.objects import VERTICAL, Contact, UpAxis
@@ -96,9 +96,9 @@ class ContactNetwork:
 
 def placing_of(body: Body | None, pose: Pose | None) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
     """See `ContactNetwork.placing`."""
-    size_m = (body.length_m, body.width_m) if isinstance(body, Plate) else body and body.size_m
-    if size_m:
-        return InRectangle(pose or Pose(), size_m[0], size_m[1])
+    sides = sides_m(body)
+    if sides is not None:
+        return InRectangle(pose or Pose(), *sides)
     return lambda points_m: (points_m if pose is None else pose.to_own(points_m))[:, :2]
 
 

@@ -144,7 +144,7 @@ def assemble(
             rigid[object_id] = RigidMotion.of(body, body.moving_mass_kg, rocks=object_id in network.poses)
         elif body is not None:
             plates[object_id] = no_heavier_than_object(body)
-            check_thin(object_id, plates[object_id], top_hz, outside_domain)
+            check_thin(plates[object_id], top_hz, outside_domain, object_id)
     return Assembly(network, tuple(excitations), bands, groups, rigid, plates, top_hz)
 
 

@@ -161,7 +161,7 @@ def largest_block(plate: Plate, max_frequency_hz: float, fineness: Fineness = FI
 def _lowest(plate: Plate, count: int) -> PlateModes:
     k = wavenumber_of_mode(plate, count)  # held edges need a higher one
     while True:
-        modes = modes_up_to(plate, (k / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi), FINE)
+        modes = modes_up_to(plate, plate.frequency_hz(k), FINE)
         if len(modes.block) >= count:
             return replace(modes, block=modes.block[:count], column=modes.column[:count])
         k *= 1.3
