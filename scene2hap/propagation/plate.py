@@ -236,10 +236,3 @@ class RigidBody:
     def moving_mass_kg(self) -> float:
         """Mass [kg]; see `Plate.moving_mass_kg`."""
         return self.mass_kg
-
-
-def sides_m(body: Plate | RigidBody | None) -> tuple[float, float] | None:
-    """Length and width of a body [m], None without a size."""
-    if isinstance(body, Plate):
-        return body.length_m, body.width_m
-    return None if body is None or body.size_m is None else body.size_m[:2]

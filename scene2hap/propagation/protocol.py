@@ -18,7 +18,7 @@ from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.plugins import Members, lacking
-from scene2hap.propagation.plate import Plate, RigidBody, sides_m
+from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import InRectangle, object_points
 from scene2hap.scene.geometry import Vector
 from scene2hap.scene.objects import VERTICAL, Contact, UpAxis
@@ -92,6 +92,13 @@ class ContactNetwork:
     def placing(self, object_id: str) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
         """Return the conversion of `on_body` for one body, as a function of points (n_points, 3), without checks."""
         return placing_of(self.bodies.get(object_id), self.poses.get(object_id))
+
+
+def sides_m(body: Body | None) -> tuple[float, float] | None:
+    """Length and width of a body [m], None without a size."""
+    if isinstance(body, Plate):
+        return body.length_m, body.width_m
+    return None if body is None or body.size_m is None else body.size_m[:2]
 
 
 def placing_of(body: Body | None, pose: Pose | None) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:

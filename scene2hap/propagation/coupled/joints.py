@@ -17,9 +17,9 @@ from scene2hap.propagation.coupled.contact_stiffness import FADING_LOSS, Contact
 from scene2hap.propagation.coupled.coupling import NORMAL, REVERSED, ForceDirection, Joint
 from scene2hap.propagation.coupled.layers import Spring, pressed_through
 from scene2hap.propagation.coupled.standing import standings
-from scene2hap.propagation.plate import Plate, sides_m
+from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.points import as_points
-from scene2hap.propagation.protocol import Body, ContactNetwork, placing_of
+from scene2hap.propagation.protocol import Body, ContactNetwork, placing_of, sides_m
 from scene2hap.scene.geometry import dot
 from scene2hap.scene.objects import VERTICAL, Contact
 from scene2hap.scene.pose import Pose

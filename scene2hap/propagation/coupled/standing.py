@@ -16,8 +16,8 @@ from typing import NamedTuple
 
 from scene2hap.contact.junction import Pair
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.plate import Plate, sides_m
-from scene2hap.propagation.protocol import Body, ContactNetwork
+from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.protocol import Body, ContactNetwork, sides_m
 from scene2hap.scene.geometry import Vector
 from scene2hap.scene.objects import VERTICAL, Contact
 
