@@ -74,7 +74,8 @@ class ExponentialPlate:
         checks.number("interface_loss_db", self.interface_loss_db, "dB", at_least=0.0, error=ConfigError)
         if self.floor_db is not None:
             checks.number("floor_db", self.floor_db, "dB", at_most=0.0, error=ConfigError, hint="None is no floor.")
-        check_choice(self.outside_domain)
+        if self.outside_domain != "ignore":
+            check_choice(self.outside_domain)
 
     def plate_transfer(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
