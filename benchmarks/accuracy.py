@@ -32,7 +32,7 @@ from scene2hap.propagation.auto import AutoFidelity
 from scene2hap.propagation.bodies import infinite_body, lattice_body, modal_body
 from scene2hap.propagation.domain import ThinPlateWarning
 from scene2hap.propagation.lattice import lattice, lattice_modes
-from scene2hap.propagation.modal import modes
+from scene2hap.propagation.modal import estimates, modes
 
 SEED = 7
 N_POINTS = 32
@@ -110,7 +110,7 @@ def ms(work: Callable[[], object]) -> float:
 
 def clear_caches() -> None:
     """Clear the caches of plates."""
-    for cached in (modes.modes_up_to, modes.first_bending_hz, modal_body.modal_body, infinite_body._table):
+    for cached in (modes.modes_up_to, estimates.first_bending_hz, modal_body.modal_body, infinite_body._table):
         cached.cache_clear()
     for cached in (lattice_body.lattice_body, *LATTICE_CACHES):
         cached.cache_clear()

@@ -32,11 +32,11 @@ from numpy.typing import NDArray
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, Plate, Pose, PropagationField, materials
 from scene2hap.propagation.auto import AutoFidelity, AutoField
 from scene2hap.propagation.auto_rungs import FINENESS, FLOOR_DB, MODAL_DB, PlateCase, body_of
-from scene2hap.propagation.bodies import infinite_body, lattice_body, modal_body, rigid
+from scene2hap.propagation.bodies import idealisation, infinite_body, lattice_body, modal_body
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.substructuring import CoupledField, assemble
 from scene2hap.propagation.lattice import bending_lattice, lattice_modes
-from scene2hap.propagation.modal import modes
+from scene2hap.propagation.modal import estimates, modes
 
 REPORTED, CALIBRATING = 0, 100_000
 """First seed of the reported draws, and first seed of the draws for the bounds."""
@@ -165,7 +165,7 @@ def by_rung(one: Draw, rung: str, density: float = 1.0) -> CoupledField:
 def forget() -> None:
     """Clear the caches of plates."""
     cached: tuple[Any, ...] = (
-        *(modes.modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact),
+        *(modes.modes_up_to, estimates.first_bending_hz, modal_body.modal_body, idealisation.is_compact),
         *(lattice_modes._modes_up_to, lattice_body.lattice_body, infinite_body._table),
         *(bending_lattice.bending_lattice, bending_lattice.lines_of, bending_lattice.aligned),
         *(bending_lattice.of_size_one, bending_lattice.outline_of),
@@ -217,7 +217,7 @@ def calibrate(n_draws: int, first: int) -> None:
     errors: dict[tuple[str, str], list[float]] = {}
     for seed in range(first, first + n_draws):
         one = draw(seed)
-        if rigid.is_compact(one.plate):
+        if idealisation.is_compact(one.plate):
             continue
         scene = assemble(one.network, one.excitations, one.bands, ContactLaw(), "ignore")
         case: PlateCase = AutoFidelity()._case(scene, "plate")
@@ -226,8 +226,8 @@ def calibrate(n_draws: int, first: int) -> None:
         truth = asked(one, by_rung(one, "modal"))
         for rung in MODAL_DB["free"]:
             errors.setdefault((case.held, rung), []).append(wrong_by(asked(one, by_rung(one, rung, density)), truth))
-        if one.plate.edges == "FFFF" and one.bands.edges_hz[-1] < 0.2 * modes.first_bending_hz(one.plate):
-            ratio = one.bands.edges_hz[-1] / modes.first_bending_hz(one.plate)
+        if one.plate.edges == "FFFF" and one.bands.edges_hz[-1] < 0.2 * estimates.first_bending_hz(one.plate):
+            ratio = one.bands.edges_hz[-1] / estimates.first_bending_hz(one.plate)
             error = wrong_by(asked(one, by_rung(one, "rigid", density)), truth)
             errors.setdefault(("free", "rigid, dB over (f / f_1)^2"), []).append(error / ratio**2)
     print("| held | rung | draws | median | 95 % | 99 % | worst |\n|---|---|---|---|---|---|---|")

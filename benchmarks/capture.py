@@ -22,7 +22,7 @@ from scene2hap import load_scene
 from scene2hap.scene.capture import capture_images, render_all
 from scene2hap.scene.capture.lazy_pictures import LazyPictures
 from scene2hap.scene.capture.protocol import Selection
-from scene2hap.scene.capture.shot_rendering import Photographer
+from scene2hap.scene.capture.shot_rendering import ShotRenderer
 from scene2hap.scene.snapshot import SceneSnapshot
 
 
@@ -76,7 +76,7 @@ def measure(scene: SceneSnapshot, options: argparse.Namespace) -> None:
 def show_visibility(pictures: LazyPictures, subjects: list[str]) -> None:
     """Print the share of each silhouette in isolated images that is visible in context images."""
     config = pictures.config.model_copy(update={"size_px": 192})
-    photographer = Photographer(
+    photographer = ShotRenderer(
         pictures.render_scene, pictures.factory(pictures.render_scene, False), config, pictures.below
     )
     good_views = []

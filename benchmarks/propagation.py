@@ -32,9 +32,9 @@ from scene2hap import (
     materials,
     plate_modes,
 )
-from scene2hap.propagation.bodies import infinite_body, modal_body, rigid
+from scene2hap.propagation.bodies import idealisation, infinite_body, modal_body
 from scene2hap.propagation.domain import ThinPlateWarning
-from scene2hap.propagation.modal import modes
+from scene2hap.propagation.modal import estimates, modes
 from scene2hap.propagation.protocol import ExpectantField
 from scene2hap.scene.pose import Pose
 
@@ -95,7 +95,7 @@ def seconds(work: Callable[[], object], repeat: int = 1) -> float:
 
 def clear_caches() -> None:
     """Clear the caches of plates."""
-    for cached in (modes.modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact):
+    for cached in (modes.modes_up_to, estimates.first_bending_hz, modal_body.modal_body, idealisation.is_compact):
         cached.cache_clear()
     infinite_body._table.cache_clear()
 

@@ -62,7 +62,7 @@ from scene2hap.propagation.domain import SlowPlateWarning, ThinPlateWarning
 from scene2hap.propagation.lattice import bending_lattice, lattice_modes
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 from scene2hap.propagation.modal import modes
-from scene2hap.propagation.modal.modes import first_bending_hz, n_rigid_motions
+from scene2hap.propagation.modal.estimates import first_bending_hz, n_rigid_motions
 
 MODELS: dict[str, Any] = {
     "infinite_plate": InfinitePlate(outside_domain="ignore"),

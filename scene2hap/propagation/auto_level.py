@@ -29,7 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.haptics import Bands
 from scene2hap.propagation.coupled.coupling import Joint
-from scene2hap.propagation.modal.modes import first_bending_hz, largest_static_receptance_m_n, n_rigid_motions
+from scene2hap.propagation.modal.estimates import first_bending_hz, largest_static_receptance_m_n, n_rigid_motions
 from scene2hap.propagation.plate import Plate
 
 N_FREQUENCIES = 40

@@ -27,7 +27,8 @@ from scene2hap.propagation.bodies.rigid import RigidMotion
 from scene2hap.propagation.elastic_body import ElasticBody
 from scene2hap.propagation.lattice.lattice_modes import lowest_frequencies_hz
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
-from scene2hap.propagation.modal.modes import FINE, Fineness, beam_hz, first_bending_hz
+from scene2hap.propagation.modal.estimates import beam_hz, first_bending_hz
+from scene2hap.propagation.modal.modes import FINE, Fineness
 from scene2hap.propagation.plate import Plate
 
 FLOOR_DB = -40.0

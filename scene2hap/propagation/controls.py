@@ -13,14 +13,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.haptics import Bands
+from scene2hap.propagation.exponential_plate import PreparedLaw
 from scene2hap.propagation.live import CostsByHand, TouchedPoint
 from scene2hap.propagation.paths.live_law import LiveLaw, LivePaths
 from scene2hap.propagation.paths.prepared_paths import cheapest_arrivals
-from scene2hap.propagation.points import object_points
 from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation, require_hops, require_input
 
 if TYPE_CHECKING:
@@ -34,10 +35,11 @@ class NoPropagation:
 
     kind: Literal["no_propagation"] = "no_propagation"
 
-    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> ReachField:
+    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> PreparedLaw:
         """Prepare the field in which every source reaches itself alone."""
         require_input(network, excitations, bands)
-        return ReachField(tuple((item.source_id, frozenset({item.source_id})) for item in excitations), bands.n_bands)
+        source_ids = tuple(item.source_id for item in excitations)
+        return PreparedLaw(source_ids, {}, {}, Arrives(len(source_ids), bands.n_bands))
 
     def live(
         self, graph: ContactGraph, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands
@@ -61,33 +63,22 @@ class FullPropagation:
     def __post_init__(self) -> None:
         require_hops(self.max_hops)
 
-    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> ReachField:
+    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> PreparedLaw:
         """Prepare the field in which every source reaches all objects connected to it by contacts of weight above 0."""
         require_input(network, excitations, bands)
-        touching = [contact for contact in network.contacts if contact.weight > 0]
-        source_ids = [item.source_id for item in excitations]
-        free = dict.fromkeys(network.bodies, 0.0)
-        arrivals = cheapest_arrivals(free, touching, [0.0] * len(touching), source_ids, self.max_hops)
-        reached = (
-            (source_id, frozenset({source_id, *(key for key, way in arrivals.items() if (way.costs[row] == 0).any())}))
-            for row, source_id in enumerate(source_ids)
-        )
-        return ReachField(tuple(reached), bands.n_bands)
+        source_ids, free = tuple(item.source_id for item in excitations), dict.fromkeys(network.bodies, 0.0)
+        crossing = [_free_crossing(contact.weight) for contact in network.contacts]
+        arrivals = cheapest_arrivals(free, network.contacts, crossing, source_ids, self.max_hops)
+        return PreparedLaw(source_ids, arrivals, free, Arrives(len(source_ids), bands.n_bands))
 
     def live(
         self, graph: ContactGraph, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands
     ) -> LiveLaw:
         """Return the field over a contact graph that changes between queries: the law, with paths that cost nothing;
         see `LiveModel`."""
-        source_ids, n_bands = tuple(item.source_id for item in excitations), bands.n_bands
-
-        def arrives(costs: CostsByHand, columns: Sequence[int] | None = None) -> NDArray[np.float64]:
-            n_columns = len(source_ids if columns is None else columns)
-            is_reached = np.isfinite(np.reshape(costs, (len(costs), n_columns, 1)))
-            return np.repeat(is_reached.astype(np.float64), n_bands, axis=2)
-
+        source_ids = tuple(item.source_id for item in excitations)
         paths = LivePaths(graph, dict.fromkeys(bodies, 0.0), _free_crossing, source_ids, self.max_hops)
-        return LiveLaw(paths, source_ids, arrives, 0.0)
+        return LiveLaw(paths, source_ids, Arrives(len(source_ids), bands.n_bands), 0.0)
 
 
 def _free_crossing(weight: float) -> float:
@@ -95,22 +86,17 @@ def _free_crossing(weight: float) -> float:
 
 
 @dataclass(frozen=True)
-class ReachField:
-    """A field with gain 1 on the objects that a source reaches, and 0 elsewhere."""
+class Arrives:
+    """The `Gamma` of the control conditions: 1 where a path arrives at any cost, else 0, in all bands."""
 
-    reach: tuple[tuple[str, frozenset[str]], ...]
+    n_sources: int
     n_bands: int
 
-    @property
-    def source_ids(self) -> tuple[str, ...]:
-        """Ids of the sources, in the order of the second axis of `attenuation`."""
-        return tuple(source_id for source_id, _ in self.reach)
-
-    def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
-        """1 or 0; see `PropagationField`."""
-        n_points = len(object_points(object_id, points_m))
-        reached = np.array([float(object_id in objects) for _, objects in self.reach])
-        return np.broadcast_to(reached[None, :, None], (n_points, len(reached), self.n_bands)).copy()
+    def __call__(self, costs: CostsByHand | Floats, columns: Sequence[int] | None = None) -> Floats:
+        """See `Gamma`."""
+        n_columns = self.n_sources if columns is None else len(columns)
+        is_reached = np.isfinite(np.reshape(costs, (len(costs), n_columns, 1)))
+        return np.repeat(is_reached.astype(np.float64), self.n_bands, axis=2)
 
 
 class LiveItself:

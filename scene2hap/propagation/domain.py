@@ -84,13 +84,6 @@ def floored_loss(plate: Plate, loss_floor: float) -> float:
     return eta
 
 
-def warn_if_thick(plate: Plate, frequencies_hz: NDArray[np.float64]) -> None:
-    """Issue a `ThinPlateWarning`, once per plate, if six thicknesses exceed its wavelength at the top frequency."""
-    require_plate(plate)
-    if frequencies_hz.max(initial=0.0) > _thin_limit_hz(plate):
-        _warn_once(plate)
-
-
 OutsideDomain = Literal["warn", "raise", "ignore"]
 """Reaction of a model to an object outside its domain."""
 
@@ -101,26 +94,32 @@ def check_choice(outside_domain: str) -> None:
         raise ConfigError(f"outside_domain is {outside_domain!r}; it must be 'warn', 'raise' or 'ignore'.")
 
 
-def check_thin(object_id: str, plate: Plate, top_hz: float, outside_domain: OutsideDomain) -> None:
-    """Warn once per object, or raise, if six thicknesses exceed its wavelength at the top frequency.
+def check_thin(plate: Plate, top_hz: float, outside_domain: OutsideDomain = "warn", object_id: str = "") -> None:
+    """Warn once per plate and object, or raise, if six thicknesses exceed the wavelength at the top frequency.
 
+    Parameters: object_id : of the plate, empty for a plate alone.
     Raises: ModelDomainError; warns: ThinPlateWarning.
     """
     if outside_domain == "ignore" or top_hz <= _thin_limit_hz(plate):
         return
-    whose = f"object {object_id!r}: "
+    whose = f"object {object_id!r}: " if object_id else ""
     if outside_domain == "raise":
         raise ModelDomainError(whose + _too_thick(plate))
     _warn_once(plate, whose)
 
 
+def warn_if_thick(plate: Plate, frequencies_hz: NDArray[np.float64]) -> None:
+    """See `check_thin`, for a plate alone at frequencies (n_frequencies,) [Hz]. Raises: ModelDomainError: no plate."""
+    require_plate(plate)
+    check_thin(plate, float(frequencies_hz.max(initial=0.0)))
+
+
 def _thin_limit_hz(plate: Plate) -> float:
-    k = 2 * math.pi / (THIN_WAVELENGTHS * plate.thickness_m)
-    return (k / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
+    return plate.frequency_hz(2 * math.pi / (THIN_WAVELENGTHS * plate.thickness_m))
 
 
 @lru_cache(maxsize=4096)
-def _warn_once(plate: Plate, whose: str = "") -> None:
+def _warn_once(plate: Plate, whose: str) -> None:
     warn_of(whose + _too_thick(plate), ThinPlateWarning)
 
 

@@ -164,16 +164,3 @@ def real_times(matrix: Floats, columns: Complex) -> Complex:
     """Multiply a real matrix (m, n) by complex columns (n, ...), at half the cost of a complex product."""
     flat = np.ascontiguousarray(columns).reshape(len(columns), math.prod(columns.shape[1:])).view(np.float64)
     return (matrix @ flat).view(np.complex128).reshape(len(matrix), *columns.shape[1:])
-
-
-def mirrored(upper: Complex, n: int) -> Complex:
-    """Symmetric matrices (n, n, n_f) from their upper triangles (n (n + 1) / 2, n_f), in the order of
-    `numpy.triu_indices`."""
-    whole = np.empty((n, n, upper.shape[1]), dtype=np.complex128)
-    begin = 0
-    for i in range(n):
-        row = upper[begin : begin + n - i]
-        whole[i, i:] = row
-        whole[i:, i] = row
-        begin += n - i
-    return whole

@@ -12,20 +12,22 @@ Source: Jingu, AliAbbasi et al., Scene2Hap, CHI 2026, section "Vibration Propaga
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.band_rms import BandRms, band_rms
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_thin
-from scene2hap.propagation.paths.live_law import Gamma, GammaAt, GammaOver, LiveLaw, LivePaths, floored
+from scene2hap.propagation.paths.live_law import GammaAt, GammaOver, LiveLaw, LivePaths, floored
 from scene2hap.propagation.paths.prepared_paths import Arrivals, arrivals_at, cheapest_arrivals
 from scene2hap.propagation.plate import Plate, require_plate
 from scene2hap.propagation.points import as_points
@@ -91,7 +93,7 @@ class ExponentialPlate:
         gamma: NDArray[np.complex128] = np.exp(-np.outer(distance, k)).astype(np.complex128)
         return gamma
 
-    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> ExponentialField:
+    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> PreparedLaw:
         """Prepare the field of a scene: the cheapest path from every source to every object.
 
         Since k = c sqrt(omega) on every plate, the cheapest path is the same at all frequencies, and one search per
@@ -107,15 +109,19 @@ class ExponentialPlate:
 
     def over(
         self, arrivals: Mapping[str, Arrivals], network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands
-    ) -> ExponentialField:
+    ) -> PreparedLaw:
         """Return the field of a scene whose paths from the sources, in the order of `excitations`, are known.
 
         Raises, warns: see `prepare`.
         """
         cost_per_m = self._costs_per_m(network.bodies, excitations, bands)
         source_ids = tuple(excitation.source_id for excitation in excitations)
-        dominant = np.array([self.frequency_hz(item) for item in excitations])
-        return ExponentialField(source_ids, arrivals, cost_per_m, bands, dominant, self._floor)
+        gamma: Callable[[Floats], Floats]
+        if bands.kind == "dominant":
+            gamma = self._gamma_at(excitations)
+        else:
+            gamma = partial(band_rms, edges_hz=bands.widths_hz())
+        return PreparedLaw(source_ids, arrivals, cost_per_m, gamma, self._floor)
 
     def live(
         self, graph: ContactGraph, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands
@@ -127,11 +133,8 @@ class ExponentialPlate:
         source_ids = tuple(excitation.source_id for excitation in excitations)
         costs_per_m = self._costs_per_m(bodies, excitations, bands)
         paths = LivePaths(graph, costs_per_m, self.crossing_cost, source_ids, self.max_hops)
-        gamma: Gamma
-        if bands.kind == "dominant":
-            gamma = GammaAt(np.array([self.frequency_hz(item) for item in excitations]))
-        else:
-            gamma = GammaOver(BandRms(bands.edges_hz))
+        is_dominant = bands.kind == "dominant"
+        gamma = self._gamma_at(excitations) if is_dominant else GammaOver(BandRms(bands.edges_hz))
         return LiveLaw(paths, source_ids, gamma, self._floor)
 
     def _costs_per_m(
@@ -142,13 +145,16 @@ class ExponentialPlate:
             top_hz = max(bands.edges_hz, default=max((self.frequency_hz(item) for item in excitations), default=0.0))
             for object_id, body in bodies.items():
                 if isinstance(body, Plate):
-                    check_thin(object_id, body, top_hz, self.outside_domain)
+                    check_thin(body, top_hz, self.outside_domain, object_id)
         return {object_id: cost_per_m(body) for object_id, body in bodies.items()}
 
     def crossing_cost(self, weight: float) -> float:
         """Return the cost of crossing a contact of a weight (0..1), beside `cost_per_m` [s^(1/2)]; infinite at 0."""
         loss = self.interface_loss_db * math.log(10) / 20
         return (loss - math.log(weight)) / math.sqrt(2 * math.pi * REFERENCE_HZ) if weight > 0 else math.inf
+
+    def _gamma_at(self, excitations: Sequence[Excitation]) -> GammaAt:
+        return GammaAt(np.array([self.frequency_hz(item) for item in excitations]))
 
     @property
     def _floor(self) -> float:
@@ -180,19 +186,20 @@ class PathCosts(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class ExponentialField:
-    """A prepared field of the paper's law: Gamma = exp(-L sqrt(omega)), L [s^(1/2)] the cost of the cheapest path."""
+class PreparedLaw:
+    """A prepared field whose gains depend on the cost of the cheapest path alone, as those of the paper's law.
+
+    arrivals : of the sources at each object; gamma : attenuation (n_points, n_sources, n_bands) [-] at path costs
+    (n_points, n_sources); floor : least attenuation wherever a source arrives at all [-].
+    """
 
     source_ids: tuple[str, ...]
     arrivals: Mapping[str, Arrivals]
     cost_per_m: Mapping[str, float]
-    bands: Bands
-    dominant_hz: NDArray[np.float64]
+    gamma: Callable[[Floats], Floats]
     floor: float = 0.0
 
-    def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
-        """Gamma at points of one object; see `PropagationField`."""
+    def attenuation(self, object_id: str, points_m: ArrayLike) -> Floats:
+        """Gains at points of one object; see `PropagationField`."""
         costs = arrivals_at(self.arrivals, self.cost_per_m, self.source_ids, object_id, points_m)
-        is_dominant = self.bands.kind == "dominant"
-        gamma = GammaAt(self.dominant_hz)(costs) if is_dominant else band_rms(costs, self.bands.widths_hz())
-        return floored(gamma, costs, self.floor)
+        return floored(self.gamma(costs), costs, self.floor)

@@ -36,7 +36,7 @@ import numpy as np
 
 from scene2hap.common.arrays import Floats
 from scene2hap.materials import Material
-from scene2hap.propagation.bodies.rigid import is_too_thick
+from scene2hap.propagation.bodies.idealisation import is_too_thick
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw, contact_modulus_pa
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body

@@ -10,13 +10,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.common.blas_threads import one_blas_thread
 from scene2hap.common.calls import clear_construction
+from scene2hap.propagation.bodies.idealisation import is_stiff
 from scene2hap.propagation.bodies.infinite_body import (
     InfiniteBody,
     damped_wavenumber_rad_m,
     point_receptance_m_n,
     spreading,
 )
-from scene2hap.propagation.bodies.rigid import RigidMotion, is_stiff
+from scene2hap.propagation.bodies.rigid import RigidMotion
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.domain import OutsideDomain, as_frequencies, warn_if_thick

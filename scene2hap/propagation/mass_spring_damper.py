@@ -28,9 +28,8 @@ from scene2hap.common.arrays import floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import ConfigError, ModelDomainError
-from scene2hap.propagation.bodies.infinite_body import InfiniteBody
+from scene2hap.propagation.bodies.infinite_body import InfiniteBody, SplitBody
 from scene2hap.propagation.bodies.lattice_body import lattice_body
-from scene2hap.propagation.bodies.split_body import SplitBody
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.domain import OutsideDomain, as_frequencies, floored_loss, off_zero, warn_if_thick
@@ -44,9 +43,9 @@ from scene2hap.propagation.lattice.lattice_modes import (
     n_modes_up_to,
 )
 from scene2hap.propagation.lattice.stepping import ExactStepper, NewmarkStepper, State, Stepper
-from scene2hap.propagation.modal.modes import points_on
 from scene2hap.propagation.physical_model import PhysicalModel
 from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.points import points_on
 
 CELLS_PER_WAVE = 4.0
 """Fewest cells in a bending wavelength; with four, the lattice turns it 0.7 % too fast."""
@@ -140,8 +139,11 @@ class MassSpringDamper(PhysicalModel):
         Returns: (n_points, n_samples) float64 [m]; the first sample has the static response of the higher modes only.
         """
         force = floats("force_n", force_n, "N", error=ModelDomainError)
-        if force.ndim != 1 or not np.isfinite(force).all():
-            raise ModelDomainError(f"force_n has shape {force.shape}; it must be (n_samples,) finite numbers [N].")
+        if force.ndim != 1:
+            raise ModelDomainError(f"force_n has shape {force.shape}; it must be (n_samples,) [N].")
+        if not np.isfinite(force).all():
+            first = np.flatnonzero(~np.isfinite(force))[0]
+            raise ModelDomainError(f"force_n[{first}] is {force[first]:g} N; it must be finite [N].")
         rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=ModelDomainError)
         drive, points = points_on(plate, drive_m), points_on(plate, points_m)
         top = as_frequencies(max_frequency_hz)

@@ -18,8 +18,9 @@ from scene2hap.propagation.coupled.hand import Hand, checked_hand
 from scene2hap.propagation.coupled.substructuring import CoupledField, prepare_coupled
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, check_choice, warn_if_thick
 from scene2hap.propagation.elastic_body import ElasticBody
-from scene2hap.propagation.modal.modes import points_on, receptance_frequencies
-from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.modal.estimates import n_rigid_motions
+from scene2hap.propagation.plate import Plate, require_plate
+from scene2hap.propagation.points import points_on
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
 
 
@@ -89,7 +90,7 @@ class PhysicalModel:
         0 Hz is an error for a plate that nothing holds in place.
         Returns: (n_points, n_frequencies) complex128 [m/N].
         """
-        f = receptance_frequencies(plate, frequencies_hz)
+        f = _receptance_frequencies(plate, frequencies_hz)
         warn_if_thick(plate, f)
         return self._receptance(plate, points_on(plate, drive_m), points_on(plate, points_m), f)
 
@@ -98,6 +99,13 @@ class PhysicalModel:
     ) -> NDArray[np.complex128]:
         """See `plate_receptance`, for valid points (1, 2) and (n_points, 2) [m]; at 0 Hz the limit."""
         raise NotImplementedError  # not called for InfinitePlate, which has no edges
+
+
+def _receptance_frequencies(plate: Plate, frequencies_hz: ArrayLike) -> NDArray[np.float64]:
+    """As `as_frequencies`, but 0 Hz is an error for a plate that nothing holds: a constant force moves it away."""
+    require_plate(plate)
+    loose = "nothing holds this plate in place" if n_rigid_motions(plate) else ""
+    return as_frequencies(frequencies_hz, positive_because=loose)
 
 
 def _is_held(plate: Plate, drive_m: NDArray[np.float64]) -> bool:

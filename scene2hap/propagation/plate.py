@@ -26,7 +26,7 @@ MAX_FREQUENCY_HZ = 1e9
 """Highest valid frequency [Hz], far beyond any vibration; assumed, so that squares of frequencies do not overflow."""
 
 _SIZES_M = {"at_least": 1e-30, "at_most": 1e6}
-"""Bounds on sizes [m], far beyond any plate; assumed, so that third powers of sizes do not under- or overflow."""
+"""Bounds on sizes [m], far beyond any object; assumed, so that third powers of sizes do not under- or overflow."""
 
 _EDGES = {"free": "FFFF", "simply-supported": "SSSS", "clamped": "CCCC"}
 
@@ -180,6 +180,11 @@ class Plate:
         k: NDArray[np.float64] = self.wavenumber_per_root_omega * np.sqrt(2 * math.pi * f)
         return k
 
+    def frequency_hz(self, wavenumber_rad_m: float) -> float:
+        """Return the frequency at which free bending waves have a wavenumber [rad/m], the inverse of
+        `wavenumber_rad_m`."""
+        return (wavenumber_rad_m / self.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
+
 
 def require_frequencies(name: str, frequencies_hz: NDArray[np.float64]) -> None:
     """Raise a ModelDomainError unless all frequencies are 0 to `MAX_FREQUENCY_HZ` [Hz]."""
@@ -202,9 +207,9 @@ def require_plate(plate: object) -> None:
 class RigidBody:
     """A compact body, such as a mug, that moves as a whole and does not bend.
 
-    Parameters: mass_kg > 0 [kg]; size_m : length, width, thickness > 0 [m] of a box with the body's inertia in rocking,
-    None for a body that does not rock; material : material of its contact surface, None if unknown.
-    Raises: ModelDomainError: a mass or size that is not positive and finite.
+    Parameters: mass_kg > 0 [kg]; size_m : length, width, thickness [m], 1e-30..1e6, of a box with the body's inertia in
+    rocking, None for a body that does not rock; material : material of its contact surface, None if unknown.
+    Raises: ModelDomainError: a mass that is not positive and finite, or a size out of bounds.
     """
 
     mass_kg: float
@@ -221,7 +226,10 @@ class RigidBody:
         mass = checks.number("mass_kg", self.mass_kg, "kg", above=0.0, error=ModelDomainError)
         object.__setattr__(self, "mass_kg", mass)
         if self.size_m is not None:
-            size = checks.vector("size_m", self.size_m, "m", size=3, above=0.0, error=ModelDomainError)
+            hint = "None is a body that does not rock."
+            size = checks.vector("size_m", self.size_m, "m", size=3, above=0.0, error=ModelDomainError, hint=hint)
+            for i, side in enumerate(size):
+                checks.number(f"size_m[{i}]", side, "m", **_SIZES_M, error=ModelDomainError, hint=hint)
             object.__setattr__(self, "size_m", size)
 
     @property

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap.common import checks
 from scene2hap.common.arrays import floats
 from scene2hap.errors import ModelDomainError
+from scene2hap.propagation.plate import Plate, require_plate
 from scene2hap.scene.pose import Pose
 
 
@@ -36,6 +37,27 @@ def object_points(object_id: object, points_m: ArrayLike) -> NDArray[np.float64]
     """
     checks.text("object_id", object_id, error=ModelDomainError)
     return as_points(points_m, 3)
+
+
+def points_on(plate: Plate, points_m: ArrayLike) -> NDArray[np.float64]:
+    """Convert points on a plate to (n_points, 2) float64 [m].
+
+    Raises: ModelDomainError: a point outside the plate by more than a millionth of its size: polynomials diverge there.
+    """
+    require_plate(plate)
+    points = as_points(points_m, 2)
+    size = np.array([plate.length_m, plate.width_m])
+    outside = ((points < -1e-6 * size) | (points > (1 + 1e-6) * size)).any(axis=1)
+    if plate.outline is not None:
+        outside |= plate.outline.distance_m(points) > 1e-6 * size.max()
+    if outside.any():
+        x, y = points[outside][0]
+        raise ModelDomainError(
+            f"point ({x:g}, {y:g}) m lies outside the plate of {plate.length_m:g} × {plate.width_m:g} m"
+            f"{'' if plate.outline is None else ', or of its outline'}; points are measured from its corner along "
+            "length and width. Move it to the nearest point of the plate."
+        )
+    return points
 
 
 class InRectangle:

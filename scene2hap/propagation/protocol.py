@@ -94,11 +94,18 @@ class ContactNetwork:
         return placing_of(self.bodies.get(object_id), self.poses.get(object_id))
 
 
+def sides_m(body: Body | None) -> tuple[float, float] | None:
+    """Length and width of a body [m], None without a size."""
+    if isinstance(body, Plate):
+        return body.length_m, body.width_m
+    return None if body is None or body.size_m is None else body.size_m[:2]
+
+
 def placing_of(body: Body | None, pose: Pose | None) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
     """See `ContactNetwork.placing`."""
-    size_m = (body.length_m, body.width_m) if isinstance(body, Plate) else body and body.size_m
-    if size_m:
-        return InRectangle(pose or Pose(), size_m[0], size_m[1])
+    sides = sides_m(body)
+    if sides is not None:
+        return InRectangle(pose or Pose(), *sides)
     return lambda points_m: (points_m if pose is None else pose.to_own(points_m))[:, :2]
 
 

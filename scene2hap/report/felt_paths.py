@@ -16,7 +16,7 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.haptics import Bands
 from scene2hap.propagation.controls import FullPropagation, NoPropagation
-from scene2hap.propagation.exponential_plate import ExponentialField, ExponentialPlate, PathCosts
+from scene2hap.propagation.exponential_plate import ExponentialPlate, PathCosts, PreparedLaw
 from scene2hap.propagation.paths.live_law import LiveLaw
 from scene2hap.propagation.paths.traced_paths import TracedPaths
 from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation
@@ -100,7 +100,7 @@ class SearchedPlate:
     law: ExponentialPlate
     paths: ScenePaths
 
-    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> ExponentialField:
+    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> PreparedLaw:
         """See `ExponentialPlate`; the network must be that of the paths."""
         arrivals = self.paths.traced(self.law).arrivals([item.source_id for item in excitations])
         return self.law.over(arrivals, network, excitations, bands)

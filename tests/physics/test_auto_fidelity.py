@@ -17,7 +17,7 @@ from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import Joint
 from scene2hap.propagation.coupled.substructuring import assemble
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
-from scene2hap.propagation.modal import modes
+from scene2hap.propagation.modal import estimates, modes
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 
@@ -89,7 +89,7 @@ def test_the_level_promised_below_the_first_resonance_of_a_held_plate(edges: str
     plate = Plate(0.5, width_m, 0.004, OAK, edges)
     places = [(x, y) for x in (0.0, 0.25, 0.5) for y in (0.0, width_m / 2, width_m)]
     for share in (0.1, 0.9, 0.97):
-        f = share * modes.first_bending_hz(plate)
+        f = share * estimates.first_bending_hz(plate)
         each = [np.abs(ModalPlate().plate_receptance(plate, at, at, f)[0, 0]) for at in places]
         joint = Joint("phone", "top", (0.0, 0.0), places[int(np.argmax(each))], stiffness_n_m=1.0)
         promised = peak_level_db(plate, 0.01, [(1e9, [joint])], [joint.point_b_m], Bands.dominant(), [f])

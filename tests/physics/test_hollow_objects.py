@@ -27,7 +27,7 @@ from scene2hap import (
     bake,
     materials,
 )
-from scene2hap.propagation.coupled.hollow import ESTIMATE, THINNEST, no_heavier_than_object
+from scene2hap.propagation.bodies.idealisation import ESTIMATE, THINNEST, no_heavier_than_object
 
 OAK = materials.lookup("oak")
 THICK = Plate(1.2, 0.7, 0.12, OAK)

@@ -204,6 +204,8 @@ def test_refused_motions() -> None:
     ask = (plate, [0.1, 0.1], [0.2, 0.2])
     with pytest.raises(ModelDomainError, match=r"force_n has shape \(2, 2\)"):
         MassSpringDamper(16).plate_motion(*ask, np.zeros((2, 2)), 8000.0)
+    with pytest.raises(ModelDomainError, match=r"force_n\[1\] is nan N; it must be finite"):
+        MassSpringDamper(16).plate_motion(*ask, [0.0, np.nan], 8000.0)
     with pytest.raises(ModelDomainError, match="sample_rate_hz is -1 Hz"):
         MassSpringDamper(16).plate_motion(*ask, np.zeros(2), -1.0)
     with pytest.raises(ConfigError, match="stepper is 'euler'"):

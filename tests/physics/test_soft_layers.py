@@ -102,6 +102,11 @@ def test_stiff_boards_touch_at_their_own_contacts_only() -> None:
     assert joints_between(stacked(mat()), "floor", "layer 0") == 8
 
 
+def test_a_layer_that_lies_flat_by_its_weight_is_pressed_by_any_load() -> None:
+    """A slab of 100 km weighs so much that a newton more does not change its sag in floating point."""
+    assert joints_between(stacked(Plate(1e5, 1e5, 1e3, OAK)), "floor", "layer 0") == 8
+
+
 def test_layers_on_layers_are_pressed_too() -> None:
     network = stacked(mat(), mat(0.006))
     assert joints_between(network, "layer 0", "layer 1") == joints_between(network, "floor", "layer 0") == 8

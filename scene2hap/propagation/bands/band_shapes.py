@@ -70,7 +70,8 @@ def band_gains(response: ResponseBasis, forces: Complex, sampling: Sampling, col
 
     Parameters: forces : (n_frequencies, n_forces, n_sources); columns : (n_sources,) indices of the sources.
     """
-    sizes, n_before = response.sizes[:, None], 0
+    # A shape of size 0, as of a force on an edge that is held, contributes nothing.
+    sizes, n_before = np.where(response.sizes > 0, response.sizes, 1.0)[:, None], 0
     bases, carried, factors = [], [], []
     for (at, weights), sources in _spaces(sampling, columns):
         own = forces[at, :, sources] * np.sqrt(weights)[:, None, None]

@@ -156,7 +156,7 @@ class InclinedBody(SpatialBody):
         shapes[rows] = normal[:, None] * bent.shapes
         smooth[rows[:, None], rows] = np.multiply.outer(normal, normal)[..., None] * bent.smooth
         moving = np.concatenate([shapes, self.motions.shapes(points_m)], axis=1)
-        resonance = np.concatenate([bent.resonance, self.yielding(frequencies_hz).T])
+        resonance = np.concatenate([bent.resonance, self.modal_receptances(frequencies_hz).T])
         return SeparatedReceptance(moving, resonance, smooth, bent.between)
 
     def _strained(self, moved: Floats, pushed: Floats, frequencies_hz: Floats, *, is_among: bool) -> _Part:
@@ -179,17 +179,17 @@ class InclinedBody(SpatialBody):
         return ByteBoundedLru(self._sums_at, room=4)
 
     def _sums_at(self, frequencies_hz: Floats) -> OctaveSums:
-        """Sums over the motions that strain the plate; see `yielding`."""
+        """Sums over the motions that strain the plate; see `modal_receptances`."""
         loss = complex(1.0, self.strain_loss)
         q: Complex = ((2 * np.pi * frequencies_hz) ** 2 / loss).astype(np.complex128)
         none = np.empty((0, len(frequencies_hz)), dtype=np.complex128)
         return OctaveSums(self.motions.squares[self.motions.squares != 0], none, q, 1 / loss)
 
-    def yielding(self, frequencies_hz: Floats) -> Complex:
+    def modal_receptances(self, frequencies_hz: Floats) -> Complex:
         """Modal receptance of each motion (n_frequencies, n_motions) [s^2]."""
         stiff = self.motions.squares * complex(1.0, self.strain_loss)
-        yielding = self.motions.signs / (stiff - (2 * np.pi * frequencies_hz[:, None]) ** 2)
-        return yielding.astype(np.complex128, copy=False)
+        found = self.motions.signs / (stiff - (2 * np.pi * frequencies_hz[:, None]) ** 2)
+        return found.astype(np.complex128, copy=False)
 
 
 class InclinedShapes(InclinedBody):
@@ -225,7 +225,7 @@ class InclinedBasis:
 
     def weights(self, frequencies_hz: Floats, forces: Complex) -> Complex:
         """See `ResponseBasis`."""
-        own = real_times(self.pushed, forces) * self.body.yielding(frequencies_hz).T[:, None, :]
+        own = real_times(self.pushed, forces) * self.body.modal_receptances(frequencies_hz).T[:, None, :]
         if self.bent is None:
             return own
         bending = np.ascontiguousarray(forces[self.columns] * self.along[:, None, None])

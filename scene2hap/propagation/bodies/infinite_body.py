@@ -1,4 +1,6 @@
-"""The receptance of a plate without edges: a point force, the wave that spreads from it, and its decay by loss.
+"""The receptance of a plate without edges, or without edges above a frequency.
+
+A wave spreads from a point force, and decays by loss:
 
     w(r) / F = -j Pi(k_c r) / (8 D_c k_c^2)        Pi(x) = H0^(2)(x) - (2j / pi) K0(x)
     D_c = D (1 + j eta)                            k_c = k (1 + j eta)^(-1/4)
@@ -21,6 +23,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Complex, Floats
+from scene2hap.propagation.elastic_body import DeflectionFunction, ElasticBody, contracted
 from scene2hap.propagation.plate import Plate
 
 NEAREST_KR = 1e-4
@@ -58,6 +62,46 @@ class InfiniteBody:
                 _looked_up(k[part, None, None] * r, self.plate_loss), driven[part, None, None], out=answer[part]
             )
         return answer
+
+
+@dataclass(frozen=True, eq=False)
+class SplitBody:
+    """An `ElasticBody` that has edges up to `limit_hz` and is infinite above it."""
+
+    below: ElasticBody
+    above: InfiniteBody
+    limit_hz: float
+
+    @property
+    def nbytes(self) -> int:
+        """Memory of the body below the limit [byte], 0 if it has no known size."""
+        return int(getattr(self.below, "nbytes", 0))
+
+    @property
+    def loss_factor(self) -> float:
+        """See `ElasticBody`."""
+        return self.below.loss_factor
+
+    def receptance(self, points_m: Floats, forces_m: Floats, frequencies_hz: Floats) -> Complex:
+        """See `ElasticBody`."""
+        is_low = frequencies_hz <= self.limit_hz
+        answer = np.empty((len(is_low), len(points_m), len(forces_m)), dtype=np.complex128)
+        answer[is_low] = self.below.receptance(points_m, forces_m, frequencies_hz[is_low])
+        answer[~is_low] = self.above.receptance(points_m, forces_m, frequencies_hz[~is_low])
+        return answer
+
+    def under(self, forces_m: Floats, frequencies_hz: Floats, forces: Complex) -> DeflectionFunction:
+        """See `Contractible`."""
+        is_low = frequencies_hz <= self.limit_hz
+        low = contracted(self.below, forces_m, frequencies_hz[is_low], forces[:, is_low])
+        high = contracted(self.above, forces_m, frequencies_hz[~is_low], forces[:, ~is_low])
+
+        def both(points_m: Floats) -> Floats:
+            answer = np.empty((len(points_m), len(is_low)), dtype=np.complex128)
+            answer[:, is_low], answer[:, ~is_low] = (one(points_m).view(np.complex128) for one in (low, high))
+            return answer.view(np.float64)
+
+        return both
 
 
 def spreading(kr: NDArray[np.complex128]) -> NDArray[np.complex128]:

@@ -32,7 +32,7 @@ class LeggedBody:
         self.plate = plate
         self.legs_m = legs_m
         self.masses_kg = masses_kg
-        self.pulled: ByteBoundedLru[Complex] = ByteBoundedLru(self._pulled, room=4)
+        self.leg_forces: ByteBoundedLru[Complex] = ByteBoundedLru(self._leg_forces, room=4)
 
     @property
     def loss_factor(self) -> float:
@@ -43,12 +43,12 @@ class LeggedBody:
         """See `ElasticBody`."""
         plain = self.plate.receptance(points_m, forces_m, frequencies_hz)
         towards = self.plate.receptance(points_m, self.legs_m, frequencies_hz)
-        pulled = self.pulled(forces_m, frequencies_hz)
+        pulled = self.leg_forces(forces_m, frequencies_hz)
         answer = plain + towards @ pulled
         # Symmetric to the last bit, which rounding alone would not give.
         return (answer + answer.transpose(0, 2, 1)) / 2 if points_m is forces_m else answer
 
-    def _pulled(self, forces_m: Floats, frequencies_hz: Floats) -> Complex:
+    def _leg_forces(self, forces_m: Floats, frequencies_hz: Floats) -> Complex:
         """Force of each leg in response to a force of 1 N (n_frequencies, n_legs, n_forces) [-]."""
         among = self.plate.receptance(self.legs_m, self.legs_m, frequencies_hz).copy()
         n = np.arange(len(self.masses_kg))
@@ -82,7 +82,7 @@ class LeggedBasis:
 
     def weights(self, frequencies_hz: Floats, forces: Complex) -> Complex:
         """See `ResponseBasis`."""
-        answered = np.einsum("flc,cnf->lnf", self.body.pulled(self.forces_m, frequencies_hz), forces)
+        answered = np.einsum("flc,cnf->lnf", self.body.leg_forces(self.forces_m, frequencies_hz), forces)
         return self.plate.weights(frequencies_hz, np.concatenate([forces, answered]))
 
     def mixed(self, weights: NDArray[AnyFloat]) -> Callable[[Floats], NDArray[AnyFloat]]:

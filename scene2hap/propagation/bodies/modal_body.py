@@ -12,10 +12,9 @@ from numpy.typing import NDArray
 from scene2hap.common.arrays import Complex, Floats
 from scene2hap.common.caches import ByteBoundedLru, cached_while_used
 from scene2hap.propagation.bands.octaves import OctaveSums
-from scene2hap.propagation.bodies.infinite_body import InfiniteBody
+from scene2hap.propagation.bodies.infinite_body import InfiniteBody, SplitBody
 from scene2hap.propagation.bodies.many_joints import among, has_many, parts_of
-from scene2hap.propagation.bodies.split_body import SplitBody
-from scene2hap.propagation.elastic_body import AnyFloat, SeparatedReceptance, mirrored
+from scene2hap.propagation.elastic_body import AnyFloat, SeparatedReceptance
 from scene2hap.propagation.modal.modes import FINE, MARGIN, QUICK_BLOCK, Fineness, largest_block
 from scene2hap.propagation.modal.near_field import NearField
 from scene2hap.propagation.modal.plate_terms import N_NODES, ContractedShapes, ForcedPlate, PlateTerms
@@ -39,7 +38,7 @@ def modal_body(
     """
     shorter = min(plate.length_m, plate.width_m)
     k = min(float(plate.wavenumber_rad_m(max_frequency_hz)), 4 * NO_RETURN / (loss_factor * shorter))
-    limit_hz = (k / plate.wavenumber_per_root_omega) ** 2 / (2 * np.pi)
+    limit_hz = plate.frequency_hz(k)
     most = max(QUICK_BLOCK, largest_block(plate, 0.0))  # a narrow plate needs the latter at any frequency
     while largest_block(plate, MARGIN * limit_hz) > most:
         limit_hz *= 0.9
@@ -172,7 +171,7 @@ class ModalBody:
         return self.terms.spectrum(q) * scale
 
     def _between(self, points_m: Floats, frequencies_hz: Floats) -> Complex:
-        among = mirrored(self._sums(frequencies_hz)(self._among_forces(points_m)), len(points_m))
+        among = _mirrored(self._sums(frequencies_hz)(self._among_forces(points_m)), len(points_m))
         return among.transpose(2, 0, 1)
 
     def _summed(self, terms: Floats, frequencies_hz: Floats) -> Complex:
@@ -184,7 +183,7 @@ class ModalBody:
         return self.terms.sums(*self._damped(frequencies_hz))
 
     def _symmetric(self, points_m: Floats) -> Floats:
-        """Terms of each pair of points (n (n + 1) / 2, n_terms), in the order of `mirrored`."""
+        """Terms of each pair of points (n (n + 1) / 2, n_terms), in the order of `_mirrored`."""
         terms = self._at_forces(points_m)(points_m)
         i, j = np.triu_indices(len(points_m))
         return (terms[i, j] + terms[j, i]) / 2  # of both, although only rounding differs: points have no order
@@ -202,3 +201,16 @@ class ModalBody:
         loss = complex(1, self.loss_factor)
         q: Complex = (self.plate.wavenumber_rad_m(frequencies_hz) ** 4 / loss).astype(np.complex128)
         return q, 1 / (self.plate.bending_stiffness_nm * loss)
+
+
+def _mirrored(upper: Complex, n: int) -> Complex:
+    """Symmetric matrices (n, n, n_f) from their upper triangles (n (n + 1) / 2, n_f), in the order of
+    `numpy.triu_indices`."""
+    whole = np.empty((n, n, upper.shape[1]), dtype=np.complex128)
+    begin = 0
+    for i in range(n):
+        row = upper[begin : begin + n - i]
+        whole[i, i:] = row
+        whole[i:, i] = row
+        begin += n - i
+    return whole

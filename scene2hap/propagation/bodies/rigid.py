@@ -1,4 +1,4 @@
-"""Rigid bodies: which objects are rigid, and their response to forces.
+"""The response of rigid bodies to forces.
 
     Y(x, x') = -1 / omega^2 * (1/m + (x - x_c) (x' - x_c) / I_y + (y - y_c) (y' - y_c) / I_x)
 
@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -19,52 +19,8 @@ from numpy.typing import NDArray
 
 from scene2hap.common.arrays import Complex, Floats
 from scene2hap.propagation.elastic_body import AnyFloat, real_times
-from scene2hap.propagation.modal.modes import beam_hz, first_bending_hz
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.scene.surface.outline import Outline
-
-_THICK = 1 / 5
-"""Largest thickness over a side for which thin-plate theory is valid along the side."""
-COMPACT_HZ, HOLLOW_HZ = 10_000.0, 2000.0
-"""Frequencies of the first mode above which a free body counts as rigid for all that a hand feels, up to 1 kHz. A small
-plate with a first mode below 10 kHz yields about as much as its contacts, which shifts resonances: with a first mode at
-2-5 kHz, the error would be 1-12 dB at the 95th percentile (docs/figures/accuracy.md). For hollow bodies, mass matters
-more than bending."""
-BOX_HZ = 100.0
-"""First mode of a solid beam above which a thick hollow body is a rigid box. Assumed: it is above that of cushions of
-foam, at 3-80 Hz, and below that of cases, cabinets and bathtubs, at 140 Hz or more."""
-
-
-def is_hollow(plate: Plate) -> bool:
-    """Whether a plate would weigh more than its object, as with a bowl or a refrigerator."""
-    return plate.moving_mass_kg < plate.mass_kg
-
-
-def is_too_thick(plate: Plate) -> bool:
-    """Whether thin-plate theory is not valid along the longer side of a solid plate, or either side of a hollow one."""
-    side = min(plate.extent_m) if is_hollow(plate) else max(plate.extent_m)
-    return plate.thickness_m > _THICK * side
-
-
-def is_stiff(plate: Plate, above_hz: float) -> bool:
-    """Whether the first mode of a free plate is above a frequency [Hz]."""
-    return beam_hz(plate) >= above_hz and first_bending_hz(plate) > above_hz
-
-
-@lru_cache(maxsize=4096)
-def is_compact(plate: Plate) -> bool:
-    """Whether a plate is so stiff that it moves as a rigid body. False for a plate that is held at an edge: as a rigid
-    body it would not move at all.
-
-    A thick solid plate bends by its first mode, as a thin one: beyond the range of thin-plate theory, but a block of
-    foam is nearer to that than to a rigid body. A thick hollow one is a box, stiffer than a plate of its mass.
-    """
-    if plate.edges != "FFFF":
-        return False
-    if not is_hollow(plate):
-        return is_stiff(plate, COMPACT_HZ)
-    is_box = is_too_thick(plate) and beam_hz(plate) >= BOX_HZ
-    return is_box or is_stiff(plate, HOLLOW_HZ)
 
 
 class MassDistribution(NamedTuple):

@@ -80,7 +80,7 @@ class Joint:
 
     def __post_init__(self) -> None:
         given = (self.stiffness_n_m, self.loss_factor, self.damping_n_s_m)
-        if all(type(x) is float and x >= 0 for x in given) and max(given[1:]) < math.inf:
+        if {*map(type, given)} == {float} and min(given) >= 0 and math.isfinite(given[1] + given[2]):
             return  # fast path: a scene has hundreds of joints, nearly all of them valid
         if math.isnan(self.stiffness_n_m) or self.stiffness_n_m < 0:
             raise ModelDomainError(f"stiffness_n_m is {self.stiffness_n_m}; it must be at least 0, or infinite [N/m].")
@@ -324,8 +324,8 @@ def ends_of(joints: Sequence[Joint]) -> dict[str, JointEnds]:
 
 def inclined_in(joints: Sequence[Joint]) -> set[str]:
     """Return the bodies with a joint that is not along their normal."""
-    ends = ((key, along) for one in joints for key, along in ((one.a, one.along_a), (one.b, one.along_b)))
-    return {key for key, along in ends if along is not NORMAL and along is not REVERSED}
+    first = {one.a for one in joints if one.along_a is not NORMAL and one.along_a is not REVERSED}
+    return first | {one.b for one in joints if one.along_b is not NORMAL and one.along_b is not REVERSED}
 
 
 def _free_deflections(ends: Mapping[str, JointEnds], n_joints: int, source_ids: Sequence[str]) -> Floats:

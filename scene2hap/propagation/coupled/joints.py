@@ -7,6 +7,7 @@ from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, lru_cache
+from operator import sub
 
 import numpy as np
 
@@ -16,9 +17,9 @@ from scene2hap.propagation.coupled.contact_stiffness import FADING_LOSS, Contact
 from scene2hap.propagation.coupled.coupling import NORMAL, REVERSED, ForceDirection, Joint
 from scene2hap.propagation.coupled.layers import Spring, pressed_through
 from scene2hap.propagation.coupled.standing import standings
-from scene2hap.propagation.plate import Plate, RigidBody
+from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.points import as_points
-from scene2hap.propagation.protocol import Body, ContactNetwork, placing_of
+from scene2hap.propagation.protocol import Body, ContactNetwork, placing_of, sides_m
 from scene2hap.scene.geometry import dot
 from scene2hap.scene.objects import VERTICAL, Contact
 from scene2hap.scene.pose import Pose
@@ -180,8 +181,8 @@ def _on_body(
 
 def _axes(network: ContactNetwork, object_id: str) -> Axes | None:
     """Directions of the length, the width and the normal of a body in the world; None for a body without them."""
-    body, pose = network.bodies.get(object_id), network.poses.get(object_id)
-    if pose is None or body is None or (isinstance(body, RigidBody) and body.size_m is None):
+    pose = network.poses.get(object_id)
+    if pose is None or sides_m(network.bodies.get(object_id)) is None:
         return None
     x, y, z = map(tuple, pose.rotation.T.tolist())
     return x, y, z
@@ -252,7 +253,7 @@ def _merged(joints: Sequence[Joint]) -> list[Joint]:
     for joint in joints:
         own = (*joint.point_a_m, *joint.point_b_m, *joint.along_a, *joint.along_b)
         for i, (place, other) in enumerate(kept):
-            if all(abs(one - two) <= SAME_POINT_M for one, two in zip(own, place, strict=True)):
+            if max(map(abs, map(sub, own, place))) <= SAME_POINT_M:
                 kept[i] = place, _in_parallel(other, joint)
                 break
         else:

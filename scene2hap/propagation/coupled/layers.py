@@ -29,9 +29,8 @@ from operator import itemgetter
 import numpy as np
 
 from scene2hap.contact.junction import Pair, pair_of
-from scene2hap.propagation.bodies.rigid import is_compact
+from scene2hap.propagation.bodies.idealisation import is_compact, no_heavier_than_object
 from scene2hap.propagation.coupled.contact_stiffness import STANDARD_GRAVITY_M_S2, ContactLaw
-from scene2hap.propagation.coupled.hollow import no_heavier_than_object
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork
 from scene2hap.scene.geometry import Vector, dot
@@ -41,6 +40,8 @@ from scene2hap.scene.pose import Pose
 UNEVEN_M = 1e-3
 """Distance of two surfaces that touch at their highest points [m]. Assumed; flatness tolerances of finished floors are
 2 mm over 0.1 m (DIN 18202, from memory)."""
+_SAG_PER_FORCE = 0.0116
+"""w D / (F a^2) of a force in the middle."""
 _OPPOSITE = 0.9  # Part of one normal along the other.
 _SLACK = 1e-6  # of a side
 
@@ -107,12 +108,11 @@ def pressed_through(
     return found
 
 
-@lru_cache(maxsize=4096)
 def sag_m(plate: Plate, force_n: float) -> float:
     """Return the sag of a layer between its ends under a force and its weight [m]."""
     side = min(plate.extent_m)
     weight_n_m2 = STANDARD_GRAVITY_M_S2 * plate.material.density_kg_m3 * plate.thickness_m
-    return side**2 / plate.bending_stiffness_nm * (0.0116 * force_n + 0.00406 * weight_n_m2 * side**2)
+    return side**2 / plate.bending_stiffness_nm * (_SAG_PER_FORCE * force_n + 0.00406 * weight_n_m2 * side**2)
 
 
 @lru_cache(maxsize=4096)
@@ -135,8 +135,8 @@ def _layer(network: ContactNetwork, object_id: str) -> Plate | None:
 @lru_cache(maxsize=4096)
 def _sagging_n(plate: Plate) -> float:
     """Return the force under which a layer sags onto its support [N]; 0 or less if its weight suffices."""
-    by_weight = sag_m(plate, 0.0)
-    return (UNEVEN_M - by_weight) / (sag_m(plate, 1.0) - by_weight)
+    per_n = _SAG_PER_FORCE * min(plate.extent_m) ** 2 / plate.bending_stiffness_nm
+    return (UNEVEN_M - sag_m(plate, 0.0)) / per_n
 
 
 @dataclass(frozen=True, eq=False)

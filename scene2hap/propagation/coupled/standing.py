@@ -17,7 +17,7 @@ from typing import NamedTuple
 from scene2hap.contact.junction import Pair
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.protocol import Body, ContactNetwork
+from scene2hap.propagation.protocol import Body, ContactNetwork, sides_m
 from scene2hap.scene.geometry import Vector
 from scene2hap.scene.objects import VERTICAL, Contact
 
@@ -119,9 +119,8 @@ def _upper_by_place(network: ContactNetwork, pair: Pair, contacts: Sequence[Cont
 
 def _middle_m(network: ContactNetwork, object_id: str) -> Vector:
     """Middle of a body in the world [m]; its position if it has no size."""
-    body, pose = network.bodies.get(object_id), network.poses[object_id]
-    size_m = (body.length_m, body.width_m) if isinstance(body, Plate) else body and body.size_m
-    x, y, z = pose.to_world([(size_m[0] / 2, size_m[1] / 2, 0.0) if size_m else (0.0, 0.0, 0.0)])[0].tolist()
+    length, width = sides_m(network.bodies.get(object_id)) or (0.0, 0.0)
+    x, y, z = network.poses[object_id].to_world([(length / 2, width / 2, 0.0)])[0].tolist()
     return x, y, z
 
 

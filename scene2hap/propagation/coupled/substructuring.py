@@ -24,19 +24,18 @@ from scene2hap.common.blas_threads import one_blas_thread
 from scene2hap.common.counted import counted
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import Sampling
+from scene2hap.propagation.bodies.idealisation import is_compact, no_heavier_than_object
 from scene2hap.propagation.bodies.inclined_body import inclined, inclined_box
 from scene2hap.propagation.bodies.legged_body import legged
-from scene2hap.propagation.bodies.rigid import RigidMotion, is_compact
+from scene2hap.propagation.bodies.rigid import RigidMotion
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import Joint, couple, inclined_in, require_memory
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.hand_load import HandLoad
-from scene2hap.propagation.coupled.hollow import no_heavier_than_object
 from scene2hap.propagation.coupled.impact_scene import DENSITY, IMPACT_BANDS, ImpactScene
 from scene2hap.propagation.coupled.impact_solution import solve_struck
 from scene2hap.propagation.coupled.joints import joints_of, legs_of, source_groups
-from scene2hap.propagation.coupled.object_response import ObjectResponse
-from scene2hap.propagation.coupled.solved_object import SolvedObject
+from scene2hap.propagation.coupled.solved_object import ObjectResponse, SolvedObject
 from scene2hap.propagation.domain import OutsideDomain, check_thin
 from scene2hap.propagation.elastic_body import ElasticBody
 from scene2hap.propagation.plate import Plate, RigidBody
@@ -145,7 +144,7 @@ def assemble(
             rigid[object_id] = RigidMotion.of(body, body.moving_mass_kg, rocks=object_id in network.poses)
         elif body is not None:
             plates[object_id] = no_heavier_than_object(body)
-            check_thin(object_id, plates[object_id], top_hz, outside_domain)
+            check_thin(plates[object_id], top_hz, outside_domain, object_id)
     return Assembly(network, tuple(excitations), bands, groups, rigid, plates, top_hz)
 
 

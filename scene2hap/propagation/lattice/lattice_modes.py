@@ -30,7 +30,7 @@ from scene2hap.propagation.lattice.bending_lattice import MOST_NODES, bending_la
 from scene2hap.propagation.lattice.block_lanczos import largest
 from scene2hap.propagation.lattice.factors import Factors, positive_factors
 from scene2hap.propagation.lattice.lattice import Lattice
-from scene2hap.propagation.modal.modes import n_modes_to, n_rigid_motions, wavenumber_of_mode
+from scene2hap.propagation.modal.estimates import n_modes_to, n_rigid_motions, wavenumber_of_mode
 from scene2hap.propagation.plate import Plate
 
 MARGIN = 1.5
@@ -102,7 +102,7 @@ def lattice_modes(plate: Plate, resolution: int, top_frequency_hz: float) -> Lat
     material share them if Poisson's ratio is the same.
     Raises: ModelDomainError: too many nodes, see `bending_lattice`; too many modes, see `MOST_WORK`.
     """
-    lowest_hz = (math.pi / max(plate.extent_m) / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
+    lowest_hz = plate.frequency_hz(math.pi / max(plate.extent_m))
     thirds = math.ceil(3 * math.log2(max(top_frequency_hz / lowest_hz, 1.0)) - 1e-9)
     check_work(plate, resolution, n_modes_up_to(plate, MARGIN * lowest_hz * 2 ** (thirds / 3)))
     alike, size_m = of_size_one(plate)

@@ -146,7 +146,7 @@ class NewmarkStepper:
             )
         if ((matrices[0] if diagonal else matrices[0].diagonal()) <= 0).any():
             raise ModelDomainError(
-                "mass holds a value that is not above 0 [kg]; what has no mass moves no one knows how."
+                "mass holds a value that is not above 0 [kg]; give every degree of freedom a mass, or leave it out."
             )
         if not diagonal:
             _check_rounding(matrices[0], matrices[2], dt)
@@ -227,5 +227,6 @@ def _per_mode(name: str, values: ArrayLike, at_most: float, unit: str) -> NDArra
     array = np.atleast_1d(np.asarray(values, dtype=np.float64))
     if array.ndim != 1 or not np.isfinite(array).all() or (array < 0).any() or (array > at_most).any():
         bound = "at least 0" if np.isinf(at_most) else f"0..{at_most:g}"
-        raise ModelDomainError(f"{name} must be (n,) numbers, finite and {bound} {unit}.")
+        given = checks.represented(values)
+        raise ModelDomainError(f"{name} is {given}; it must be (n,) finite numbers of {bound} {unit}.")
     return array

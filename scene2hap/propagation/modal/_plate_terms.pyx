@@ -32,16 +32,16 @@ cdef class ContractedShapes:
     def __call__(self, const double[:, :] points_m):
         cdef Py_ssize_t point
         cdef double[:, ::1] out
-        cdef float[:, ::1] told_single
+        cdef float[:, ::1] out_single
         found = np.zeros((points_m.shape[0], self.n), np.float32 if self.is_single else np.float64)
         if self.n == 0:
             return found
         if self.is_single:
-            told_single = found
+            out_single = found
             for point in range(points_m.shape[0]):
                 self.fill(points_m[point, 0], points_m[point, 1])
                 fold(
-                    self, &told_single[point, 0], &self.smooth_single[0, 0], &self.cosines_single[0],
+                    self, &out_single[point, 0], &self.smooth_single[0, 0], &self.cosines_single[0],
                     &self.beyond_single[0, 0] if self.beyond_single.shape[0] else NULL, &self.nears_single[0],
                     points_m[point, 0], points_m[point, 1],
                 )

@@ -23,11 +23,12 @@ from scene2hap.common.caches import cached_while_used
 from scene2hap.common.calls import clear_attributes
 from scene2hap.common.counted import counted
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.domain import as_frequencies, warn_if_slow
-from scene2hap.propagation.modal.mode_block import ModeBlock, cholesky, modes_below
-from scene2hap.propagation.modal.ritz import AxisBasis, axis_bases, products, stiffness
+from scene2hap.propagation.domain import warn_if_slow
+from scene2hap.propagation.modal.estimates import SHIFT, n_rigid_motions, wavenumber_of_mode
+from scene2hap.propagation.modal.mode_block import ModeBlock, modes_below
+from scene2hap.propagation.modal.ritz import AxisBasis, axis_bases, products
 from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate, require_plate
-from scene2hap.propagation.points import as_points
+from scene2hap.propagation.points import points_on
 from scene2hap.scene.geometry import frozen
 
 LARGEST_BLOCK = 3000
@@ -37,17 +38,10 @@ QUICK_BLOCK = 1000
 MARGIN = 1.5
 """Receptances take modes up to this many times their top frequency. Tuned: 2 halves the remaining error at twice the
 time."""
-SHIFT = 1e-2
-"""s over k^4 of the highest mode wanted. Tuned: anywhere between 1e-4 and 1 the frequencies agree to 1e-9."""
-
-
 _HELD_WAVE = 5.0
 """Along held edges a deflection falls off within the plate's width b: functions resolve waves up to this k b at least.
 Tuned: the static deflection of a long strip is within 0.2 dB of Timoshenko's; with 7, within 0.1 dB at thrice the cost.
 """
-_NARROWEST = 1e-3
-"""Width over length of the narrowest strip with free long edges for which `first_bending_hz` is computed: it bends as a
-beam, as do all narrower ones, and rounding hides the modes of a strip of 1e-5."""
 
 
 @dataclass(frozen=True)
@@ -156,72 +150,6 @@ def plate_modes(plate: Plate, n_modes: int | None = None, *, max_frequency_hz: f
     )
 
 
-def n_rigid_motions(plate: Plate) -> int:
-    """Number of motions without bending that the edges allow: 3 if all are free, 1 about a single hinge, else 0."""
-    return {"FFFF": 3, "FFFS": 1}.get("".join(sorted(plate.edges)), 0)
-
-
-def receptance_frequencies(plate: Plate, frequencies_hz: ArrayLike) -> NDArray[np.float64]:
-    """As `as_frequencies`, but 0 Hz is an error for a plate that nothing holds: a constant force moves it away."""
-    require_plate(plate)
-    loose = "nothing holds this plate in place" if n_rigid_motions(plate) else ""
-    return as_frequencies(frequencies_hz, positive_because=loose)
-
-
-def n_modes_to(plate: Plate, k: float) -> float:
-    """Approximate number of modes of a plate with free edges up to a wavenumber [rad/m] (Weyl)."""
-    return (plate.area_m2 * k**2 + 2 * sum(plate.extent_m) * k) / (4 * math.pi)
-
-
-def wavenumber_of_mode(plate: Plate, n_modes: float) -> float:
-    """The wavenumber [rad/m] at which `n_modes_to` is `n_modes`."""
-    area, edge = plate.area_m2, 2 * sum(plate.extent_m)
-    return edge / (2 * area) * (math.sqrt(1 + 16 * math.pi * area * n_modes / edge**2) - 1)
-
-
-def beam_hz(plate: Plate) -> float:
-    """Upper bound on `first_bending_hz` of a plate with free edges [Hz]: the first mode of a free beam along its longer
-    side, which is a trial deflection (Rayleigh)."""
-    return 22.374 / (max(plate.extent_m) * plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
-
-
-@lru_cache(maxsize=4096)
-def first_bending_hz(plate: Plate) -> float:
-    """Lowest natural frequency above 0 [Hz], from above, at a thousandth of the cost of all modes.
-
-    It is within 1e-3; on a strip with clamped ends within 1.1e-2. A strip narrower than
-    `_NARROWEST` counts as one of this width.
-    """
-    from scipy.linalg.lapack import dpotri
-
-    pairs, nu, longest = (plate.edges[:2], plate.edges[2:]), plate.material.poisson_ratio, max(plate.extent_m)
-    sides = (plate.length_m, plate.width_m)
-    least = [_NARROWEST * longest if pair == "FF" else 0.0 for pair in pairs]
-    x, y = (axis_bases(*of_axis, 8) for of_axis in zip(pairs, map(max, sides, least), strict=True))
-    shift = SHIFT * (math.pi / longest) ** 4
-    compliances = [dpotri(cholesky(u, v, nu, shift), lower=1, overwrite_c=1)[0] for u in x for v in y]
-    k4 = np.sort(np.concatenate([1 / np.linalg.eigvalsh(one) - shift for one in compliances]))
-    return float(math.sqrt(k4[n_rigid_motions(plate)]) / plate.wavenumber_per_root_omega**2 / (2 * math.pi))
-
-
-@lru_cache(maxsize=4096)
-def largest_static_receptance_m_n(plate: Plate) -> float:
-    """Greatest deflection under a constant force at the same point of a held plate [m/N], within 4 % from below."""
-    shorter = min(plate.length_m, plate.width_m)
-    bases_x, bases_y = (
-        axis_bases(edges, side_m, 8 * math.ceil(side_m / shorter))
-        for edges, side_m in ((plate.edges[:2], plate.length_m), (plate.edges[2:], plate.width_m))
-    )
-    parts = np.linspace(0.0, 1.0, 9)
-    points = np.array([(x * plate.length_m, y * plate.width_m) for x in parts for y in parts])
-    found = np.zeros(len(points))
-    for u in bases_x:
-        for v in bases_y:
-            shapes = products(u, v, points)
-            found += (shapes.T * np.linalg.solve(stiffness(u, v, plate.material.poisson_ratio), shapes.T)).sum(axis=0)
-    return float(found.max()) / plate.bending_stiffness_nm
-
-
 def largest_block(plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> int:
     """Number of functions in the largest eigenproblem of `plate_modes`; its time grows with the cube of this number."""
     terms = _terms(plate, _wavenumber(plate, max_frequency_hz), fineness)
@@ -229,32 +157,11 @@ def largest_block(plate: Plate, max_frequency_hz: float, fineness: Fineness = FI
     return math.prod(math.ceil(n / 2) if pair[0] == pair[1] else n for n, pair in zip(terms, edges, strict=True))
 
 
-def points_on(plate: Plate, points_m: ArrayLike) -> NDArray[np.float64]:
-    """Convert points on a plate to (n_points, 2) float64 [m].
-
-    Raises: ModelDomainError: a point outside the plate by more than a millionth of its size: polynomials diverge there.
-    """
-    require_plate(plate)
-    points = as_points(points_m, 2)
-    size = np.array([plate.length_m, plate.width_m])
-    outside = ((points < -1e-6 * size) | (points > (1 + 1e-6) * size)).any(axis=1)
-    if plate.outline is not None:
-        outside |= plate.outline.distance_m(points) > 1e-6 * size.max()
-    if outside.any():
-        x, y = points[outside][0]
-        raise ModelDomainError(
-            f"point ({x:g}, {y:g}) m lies outside the plate of {plate.length_m:g} × {plate.width_m:g} m"
-            f"{'' if plate.outline is None else ', or of its outline'}; points are measured from its corner along "
-            "length and width. Move it to the nearest point of the plate."
-        )
-    return points
-
-
 @lru_cache(maxsize=32)
 def _lowest(plate: Plate, count: int) -> PlateModes:
     k = wavenumber_of_mode(plate, count)  # held edges need a higher one
     while True:
-        modes = modes_up_to(plate, (k / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi), FINE)
+        modes = modes_up_to(plate, plate.frequency_hz(k), FINE)
         if len(modes.block) >= count:
             return replace(modes, block=modes.block[:count], column=modes.column[:count])
         k *= 1.3

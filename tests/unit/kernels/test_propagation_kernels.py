@@ -195,7 +195,7 @@ def test_object_response_kernels_agree(seed: int, n: int, own: int) -> None:
     arriving = rng.uniform(0, 1, (n, len(columns), 3))
     told, compiled = (
         kind(lambda points: points[:, :2], lambda _: arriving, columns, (5, 3), own)(np.zeros((n, 3)))
-        for kind in both("propagation.coupled.object_response.ObjectResponse")
+        for kind in both("propagation.coupled.solved_object.ObjectResponse")
     )
     np.testing.assert_array_equal(compiled, told)
 
@@ -205,7 +205,7 @@ def test_object_response_kernels_agree(seed: int, n: int, own: int) -> None:
 def test_kernels_find_the_same_magnitudes(seed: int, n: int, m: int) -> None:
     pairs = np.random.default_rng(seed).normal(size=(n, 2 * m))
     told, compiled = (
-        kind(lambda _: pairs)(np.empty((n, 2))) for kind in both("propagation.coupled.object_response.Magnitudes")
+        kind(lambda _: pairs)(np.empty((n, 2))) for kind in both("propagation.coupled.solved_object.Magnitudes")
     )
     np.testing.assert_allclose(compiled, told, rtol=1e-14)
 

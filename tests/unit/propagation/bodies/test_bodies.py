@@ -26,12 +26,12 @@ from scene2hap.common import caches
 from scene2hap.common.caches import ByteBoundedLru
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation.bands.sampling import Sampling
-from scene2hap.propagation.bodies.infinite_body import InfiniteBody
+from scene2hap.propagation.bodies.idealisation import is_compact
+from scene2hap.propagation.bodies.infinite_body import InfiniteBody, SplitBody
 from scene2hap.propagation.bodies.modal_body import ModalBody
-from scene2hap.propagation.bodies.rigid import RigidMotion, is_compact
-from scene2hap.propagation.bodies.split_body import SplitBody
+from scene2hap.propagation.bodies.rigid import RigidMotion
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.modal.modes import first_bending_hz
+from scene2hap.propagation.modal.estimates import first_bending_hz
 
 OAK, STEEL, CERAMIC, FOAM = (materials.lookup(name) for name in ("oak", "steel", "ceramic", "foam"))
 

@@ -14,11 +14,12 @@ from scene2hap.propagation.bands.band_shapes import CLOSE, band_gains
 from scene2hap.propagation.bands.octaves import OctaveSums
 from scene2hap.propagation.bands.sampling import Sampling
 from scene2hap.propagation.bodies import modal_body
+from scene2hap.propagation.bodies.infinite_body import SplitBody
 from scene2hap.propagation.bodies.lattice_body import lattice_body
 from scene2hap.propagation.bodies.modal_body import ModalBody
 from scene2hap.propagation.bodies.rigid import RigidMotion
-from scene2hap.propagation.bodies.split_body import SplitBody
 from scene2hap.propagation.elastic_body import contracted, pieces
+from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 from scene2hap.propagation.protocol import ExpectantField
 
 STEEL = Plate(0.65, 0.42, 0.002, materials.lookup("steel"))
@@ -75,6 +76,21 @@ def test_expected_touch_gives_the_same_result() -> None:
     for object_id in ("top", "tray", "s0"):
         told, found = (one.attenuation(object_id, points) for one in (field, expectant))
         np.testing.assert_allclose(found, told, atol=CLOSE * told.max())
+
+
+@pytest.mark.parametrize("boundary", ["CFFF", "SSSS"])
+def test_a_force_on_a_held_edge_adds_nothing_to_an_expected_touch(boundary: str) -> None:
+    """No shape of a lattice moves under a force on a held edge, so that the shapes of this force have no size."""
+    plate = Plate(1.0, 0.6, 0.02, materials.lookup("oak"), boundary)
+    contacts = [Contact("source", "held", (0.2, 0.2, 0.0)), Contact("wall", "held", (0.0, 0.3, 0.0))]
+    network = ContactNetwork({"held": plate, "wall": Plate(1.0, 1.0, 0.1, materials.lookup("oak"))}, contacts)
+    fields = [
+        MassSpringDamper().prepare(network, [Excitation("source", 100.0, 120.0, 0.2)], Bands.third_octaves(80, 160))
+        for _ in range(2)
+    ]
+    fields[1].expect("held")
+    told, found = (field.attenuation("held", [(0.5, 0.4, 0.0), (0.9, 0.1, 0.0)]) for field in fields)
+    np.testing.assert_allclose(found, told, atol=CLOSE * told.max())
 
 
 @pytest.mark.parametrize("name", ["steel", "rug"])

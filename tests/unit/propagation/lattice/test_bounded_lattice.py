@@ -13,9 +13,8 @@ from garbage import only_new_garbage
 from scene2hap import materials
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation import mass_spring_damper
-from scene2hap.propagation.bodies.infinite_body import InfiniteBody
+from scene2hap.propagation.bodies.infinite_body import InfiniteBody, SplitBody
 from scene2hap.propagation.bodies.lattice_body import LatticeBody
-from scene2hap.propagation.bodies.split_body import SplitBody
 from scene2hap.propagation.lattice import lattice_modes
 from scene2hap.propagation.mass_spring_damper import CoarsenedWarning, MassSpringDamper
 from scene2hap.propagation.plate import Plate

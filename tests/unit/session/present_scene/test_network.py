@@ -9,7 +9,7 @@ import pytest
 
 from scene2hap import HapticSession, ObjectHaptics, Touch, materials
 from scene2hap.bundle import Override
-from scene2hap.propagation.coupled.hollow import no_heavier_than_object
+from scene2hap.propagation.bodies.idealisation import no_heavier_than_object
 from scene2hap.session.present_scene.network import body_of
 from scenes import table_with_two_phones
 

@@ -1,4 +1,4 @@
-"""The compiled twins of the kernels in `object_response`."""
+"""The compiled twins of the kernels in `solved_object`."""
 
 import numpy as np
 
