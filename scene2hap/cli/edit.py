@@ -220,7 +220,7 @@ def _edit_once(arguments: argparse.Namespace, config: BakeConfig, console: Conso
             return _edit_once(arguments, config, console)
         # Saving would keep an equal bundle as a step, so that an undo would change nothing.
         console.say(f"nothing changed; {arguments.bundle} stays as it was")
-        return {"bundle": str(arguments.bundle), "remade": remade}
+        return {"bundle": str(arguments.bundle), "differences": [], "remade": remade}
     folder = Path(arguments.bundle)
     if moved is None:
         write_edited(after, folder, before, since=read)
@@ -250,7 +250,7 @@ def _edit_once(arguments: argparse.Namespace, config: BakeConfig, console: Conso
     if moved is not None:
         n_back, n_forward = (len(steps_beside(folder, kind)) for kind in ("before", "after"))
         console.say(f"{counted(n_back, 'step')} back by undo, {counted(n_forward, 'step')} forward by redo")
-    return {"bundle": str(folder), "remade": remade}
+    return {"bundle": str(folder), "differences": [tuple(row) for row in all_changes], "remade": remade}
 
 
 def _present(arguments: argparse.Namespace) -> tuple[HapticBundle | None, BundleError | None]:

@@ -19,6 +19,7 @@ import numpy as np
 from scene2hap.audio.files import read_channels
 from scene2hap.audio.loop_marks import marked_loop
 from scene2hap.bundle import HapticBundle
+from scene2hap.bundle.manifest import MANIFEST
 from scene2hap.bundle.sounds import file_stem, file_stems
 from scene2hap.clips.reading import is_haptic_clip, read_haptic_clip
 from scene2hap.clips.synthesis import RATE_HZ, synthesize
@@ -66,9 +67,9 @@ def export_bundle(
         step, number done and total number.
     Returns: the written files, with the error of each.
     Raises: ConfigError: an unknown kind or setting; SessionError: touches that cannot be played; ExportError: the
-    folder cannot be written, or holds a manifest.json or report.json of another program. No file is replaced before all
-    are written; the manifest is replaced last. Then files of these kinds are removed that an earlier manifest of this
-    scene lists for a source, and the new one does not.
+    folder cannot be written, is a bundle, or holds a manifest.json or report.json of another program. No file is
+    replaced before all are written; the manifest is replaced last. Then files of these kinds are removed that an
+    earlier manifest of this scene lists for a source, and the new one does not.
     Warns: SceneWarning: files of other kinds or of another scene stay, and the new manifest does not list them.
     """
     exporters, folder = _exporters(to), _place(folder, NAME, REPORT)
@@ -143,12 +144,14 @@ def _without_offset(samples: Signal, rate_hz: float) -> Signal:
 def _place(folder: str | os.PathLike[str], *names: str) -> Path:
     """Return the folder as a path.
 
-    Raises: ExportError: it cannot be written, or one of these names in it is a file of another program, such as the
-    manifest of a web page or the report of `bake-many`. Both are found before long work.
+    Raises: ExportError: it cannot be written, is a bundle, or one of these names in it is a file of another program,
+    such as the manifest of a web page or the report of `bake-many`. All are found before long work.
     """
     place = checks.path("folder", folder, error=ExportError)
     try:
         require_place(place / NAME)
+        if (place / MANIFEST).is_file():
+            raise ExportError(f"{place} is a bundle; an export is no part of it. Export into a folder of its own.")
         for name in names:
             if (place / name).is_file() and not _is_of_an_export((place / name).read_bytes()):
                 raise ExportError(

@@ -14,7 +14,7 @@ from PIL import Image
 
 from files_of import files_of
 from scene2hap import Box, Pose, SceneObject, SceneSnapshot
-from scene2hap.cli import main
+from scene2hap.cli import command_parser, main
 from scene2hap.demo import kitchen_path
 from scene2hap.render.safety import FADE_OUT_S
 
@@ -292,6 +292,45 @@ def test_an_unknown_option_does_not_blame_a_known_one(
     said = capsys.readouterr().err
     assert told in said
     assert "'-o' is read as an option" not in said
+
+
+@pytest.mark.parametrize(
+    ("words", "which"),
+    [
+        (("bake", "x.glb", "-o", "b.bundle", "--sounds", ""), "--sounds"),
+        (("bake", "x.glb", "-o", "b.bundle", "--assets-root="), "--assets-root"),
+        (("inspect", ""), "SCENE|BUNDLE"),
+        (("export", "b.bundle", "-o", ""), "-o/--output"),
+        (("edit", "b.bundle", "sound", "fan", ""), "FILE"),
+    ],
+)
+def test_an_empty_value_is_an_error(capsys: pytest.CaptureFixture[str], words: tuple[str, ...], which: str) -> None:
+    with pytest.raises(SystemExit):
+        main(words)
+    assert f"argument {which}: its value is empty" in capsys.readouterr().err
+
+
+def test_values_that_may_be_empty(room: Path, tmp_path: Path) -> None:
+    """Without a wish, a script passes an empty prompt; --loop-back alone means any input."""
+    assert main(["bake", str(room), "-o", str(tmp_path / "b"), "--prompt", "", "--dry-run", "-q"]) == 0
+    arguments = command_parser().parse_args(["doctor", "--sweep", "soundcard", "--loop-back"])
+    assert arguments.loop_back == ""
+
+
+def test_pictures_that_cannot_be_made_are_an_error_before_any_table(
+    room: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    taken = tmp_path / "taken"
+    taken.write_text("")
+    assert main(["inspect", str(room), "--pictures", str(taken)]) == 1
+    said = capsys.readouterr()
+    assert (said.out, "taken cannot be written" in said.err) == ("", True)
+    monkeypatch.setitem(sys.modules, "embreex", None)
+    monkeypatch.setitem(sys.modules, "embreex.mesh_construction", None)
+    monkeypatch.delitem(sys.modules, "scene2hap.scene.capture.embree", raising=False)
+    assert main(["inspect", str(room), "--pictures", str(tmp_path / "p")]) == 1
+    said = capsys.readouterr()
+    assert (said.out, "pip install 'scene2hap[pictures]'" in said.err) == ("", True)
 
 
 def test_an_option_of_commands_before_the_command_is_explained(capsys: pytest.CaptureFixture[str]) -> None:

@@ -211,8 +211,11 @@ def test_a_comparison_lists_only_what_an_edit_changed(fan: Path, capsys: pytest.
     """An override has values for gain, sound, lock and mute; values that were not set are not listed."""
     folder = fan
     source = next(iter(HapticBundle.load(folder).loops))
-    assert main(["edit", str(folder), "gain", source, "-3", "-q"]) == 0
+    said = outcome(capsys, "edit", str(folder), "gain", source, "-3", "--json")["differences"]
     found = outcome(capsys, "edit", str(folder), "diff", f"{folder}.before", "--json")["differences"]
+    assert isinstance(said, list)
+    assert [[key, what, before, after] for key, what, after, before in said] == found
+    assert outcome(capsys, "edit", str(folder), "gain", source, "-3", "--json")["differences"] == []
     assert found == [[source, "gain", "-3.0 dB", "+0.0 dB"]]
 
 
