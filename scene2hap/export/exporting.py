@@ -24,6 +24,7 @@ from scene2hap.bundle.sounds import file_stem, file_stems
 from scene2hap.clips.reading import is_haptic_clip, read_haptic_clip
 from scene2hap.clips.synthesis import RATE_HZ, synthesize
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import clear_call
 from scene2hap.common.counted import counted
 from scene2hap.common.files import put_in_place, require_place
@@ -36,7 +37,7 @@ from scene2hap.export.fidelity import fidelity
 from scene2hap.export.manifest import FORMAT, NAME, Manifest, manifest_of
 from scene2hap.export.protocol import EXPORTS, Exported, Exporter, json_bytes
 from scene2hap.export.report import ExportReport, FileReport
-from scene2hap.export.track import Channel, Signal, Track
+from scene2hap.export.track import Channel, Track
 from scene2hap.session import HapticSession, SessionConfig
 from scene2hap.session.touch_track import TouchTrack
 from scene2hap.session.track_player import play_track
@@ -128,7 +129,7 @@ def export_clip(
     return _write([track], exporters, folder, None, progress)
 
 
-def _without_offset(samples: Signal, rate_hz: float) -> Signal:
+def _without_offset(samples: Floats, rate_hz: float) -> Floats:
     """Subtract the constant offset of each channel (n, n_channels), such as that of a cheap recorder.
 
     No actuator plays it, and an envelope would show it as vibration. It must hold throughout the file: in a file of
