@@ -15,9 +15,10 @@ from scene2hap.bundle.checking import require_plausible
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.corrections import read_corrections
 from scene2hap.bundle.edited_loops import to_be_made_again
-from scene2hap.bundle.folder import read_bundle, write_bundle
 from scene2hap.bundle.notebook import bundle_table
 from scene2hap.bundle.override import ANY_STATE, BY_STATE, MAKES_LOOPS, NONE, USER, Override, answers_before
+from scene2hap.bundle.reading import read_bundle
+from scene2hap.bundle.writing import write_bundle
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls

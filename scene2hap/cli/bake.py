@@ -15,14 +15,16 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
-from scene2hap.baking.corrections import bundle_before, readable_bundle
+from scene2hap.baking.bundle_before import bundle_before, readable_bundle
 from scene2hap.baking.questions import count_questions
 from scene2hap.bundle.account import write_account
-from scene2hap.bundle.folder import read_overrides, write_edited
+from scene2hap.bundle.differences import differ
 from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
-from scene2hap.bundle.history import step_beside
+from scene2hap.bundle.history import require_steps, step_beside
+from scene2hap.bundle.overrides_file import read_overrides
+from scene2hap.bundle.writing import write_edited
 from scene2hap.cli.console import Console
-from scene2hap.cli.edit import is_other, require_steps
+from scene2hap.cli.scene_options import add_scene_arguments, read_scene
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
 from scene2hap.errors import BundleError, ConfigError
@@ -31,8 +33,6 @@ from scene2hap.llm.wrappers import is_remote
 from scene2hap.llm.wrappers.prices import price_list
 from scene2hap.scene.capture import capture_images
 from scene2hap.scene.capture.given_pictures import GivenPictures
-from scene2hap.scene.load import load_scene
-from scene2hap.scene.snapshot import SceneSnapshot
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -46,10 +46,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_scene_arguments(parser)
 
 
-SCENE_ARGUMENTS = ("unit_m", "assets_root", "names", "up_axis", "group")
-"""See `add_scene_arguments`."""
-
-
 def add_model_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments that choose the model, its pictures and the sound sources."""
     add_backend_arguments(parser)
@@ -60,43 +56,6 @@ def add_model_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--sounds", metavar="FOLDER", help="your own sounds, tried before the synthesizer")
     add_loop_arguments(parser)
-
-
-def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments for scene files with missing or wrong information."""
-    parser.add_argument(
-        "--unit-m", type=float, metavar="METRES", help="metres per unit of the file, overriding its own"
-    )
-    parser.add_argument(
-        "--assets-root", metavar="FOLDER", help="folder from which the file may read; default: its own folder"
-    )
-    parser.add_argument(
-        "--names", metavar="FILE", help="CSV or JSON with names of templates, for Habitat scenes that name them by hash"
-    )
-    parser.add_argument("--up-axis", choices=("y", "z"), help="y or z, overriding the axis of the file's format")
-    parser.add_argument(
-        "--group",
-        metavar="RULE",
-        help="authored (default), leaf, loose, or a depth in the node tree (0: one object)",
-    )
-
-
-def read_scene(arguments: argparse.Namespace) -> SceneSnapshot:
-    """Read the scene file in the arguments."""
-    return load_scene(arguments.scene, **scene_options(arguments))
-
-
-def scene_options(arguments: argparse.Namespace) -> dict[str, Any]:
-    """Return the arguments of `load_scene` except the path."""
-    group = arguments.group or "authored"
-    is_depth = group.isascii() and group.isdigit() and len(group) < 10
-    return {
-        "up_axis": arguments.up_axis,
-        "unit_m": arguments.unit_m,
-        "group": int(group) if is_depth else group,
-        "assets_root": arguments.assets_root,
-        **({"names": arguments.names} if arguments.names else {}),
-    }
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
@@ -132,7 +91,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             overrides=overrides,
             earlier=before or bundle_before(target, overrides),
         )
-    kept = is_there and (before is None or is_other(before, bundle))
+    kept = is_there and (before is None or differ(before, bundle))
     folder = write_edited(bundle, target, before) if kept else bundle.save(target)
     try:
         write_account(folder, {**accounts[0].as_json(), "cost_usd": accounts[0].cost_usd(price_list(config.prices))})

@@ -21,8 +21,9 @@ from typing import Any
 
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.many import ManyReport, bake_many, plan_many
-from scene2hap.cli.bake import add_model_arguments, add_scene_arguments, bake_settings, scene_options
+from scene2hap.cli.bake import add_model_arguments, bake_settings
 from scene2hap.cli.console import Console
+from scene2hap.cli.scene_options import add_scene_arguments, scene_options
 from scene2hap.common.counted import counted
 from scene2hap.common.printable import quoted
 from scene2hap.errors import ConfigError, SceneError

@@ -16,9 +16,9 @@ from typing import Any
 
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.many.batch import BatchReport, batch_status, collect_batch, submit_batch
-from scene2hap.cli.bake import scene_options
 from scene2hap.cli.bake_many import add_many_arguments, files, many_settings
 from scene2hap.cli.console import Console
+from scene2hap.cli.scene_options import scene_options
 from scene2hap.errors import ConfigError, SceneError
 
 

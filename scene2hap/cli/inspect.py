@@ -26,8 +26,8 @@ from typing import Any
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.sounds import file_stems
-from scene2hap.cli.bake import SCENE_ARGUMENTS, add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
+from scene2hap.cli.scene_options import SCENE_ARGUMENTS, add_scene_arguments, read_scene
 from scene2hap.cli.shared_options import reject_unused
 from scene2hap.cli.tables import bundle_outcome, scene_outcome, show_bundle, show_scene
 from scene2hap.common.counted import counted
