@@ -310,6 +310,15 @@ def test_an_empty_value_is_an_error(capsys: pytest.CaptureFixture[str], words: t
     assert f"argument {which}: its value is empty" in capsys.readouterr().err
 
 
+def test_an_option_that_is_no_json_is_not_shown(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It may hold a key, and the output of a build is kept."""
+    key = "sk-test-0123456789abcdefghij"
+    assert main(["bake", str(room), "-o", "b", "--llm", f'{{"kind": "openai", "api_key": "{key}"']) == 1
+    said = capsys.readouterr().err
+    assert "--llm is no JSON (line 1, column" in said
+    assert key not in said
+
+
 def test_values_that_may_be_empty(room: Path, tmp_path: Path) -> None:
     """Without a wish, a script passes an empty prompt; --loop-back alone means any input."""
     assert main(["bake", str(room), "-o", str(tmp_path / "b"), "--prompt", "", "--dry-run", "-q"]) == 0

@@ -163,7 +163,7 @@ def test_a_material_that_no_table_has_is_given_by_its_constants(
     assert main(["edit", str(fan), "material", "fan", "my abs"]) == 1
     assert f"a Material of your own: {', '.join(constants)}, loss_factor." in capsys.readouterr().err
     assert main(["edit", str(fan), "material", "fan", json.dumps(constants)[:-1]]) == 1
-    assert "which is no JSON" in capsys.readouterr().err
+    assert "material is no JSON" in capsys.readouterr().err
     own = Material("my abs", 1111.0, 2.2e9, 0.33)
     assert main(["edit", str(fan), "material", "fan", json.dumps(constants)]) == 0
     assert HapticBundle.load(fan).objects["fan"].material == own
