@@ -13,6 +13,7 @@ from typing import Any, Literal, Protocol
 from scene2hap.common.web import WebReply
 from scene2hap.errors import BadAnswer
 from scene2hap.llm.answers.schema import local_schema
+from scene2hap.llm.answers.usable import RawReply
 from scene2hap.llm.backends import chat
 from scene2hap.llm.protocol import LLMRequest
 
@@ -48,7 +49,7 @@ class Dialect(Protocol):
         """Return the body of a request. `text` is the prompt with the list of answer fields."""
         ...
 
-    def read(self, reply: WebReply, model: str) -> chat.RawReply:
+    def read(self, reply: WebReply, model: str) -> RawReply:
         """Read a reply. Raises: BackendUnavailable, BadAnswer."""
         ...
 
@@ -82,7 +83,7 @@ class ChatCompletions:
             body["response_format"] = {"type": "json_object"}
         return body
 
-    def read(self, reply: WebReply, model: str) -> chat.RawReply:
+    def read(self, reply: WebReply, model: str) -> RawReply:
         """Read a reply with `chat.read_chat`."""
         return chat.read_chat(reply, model)
 
@@ -119,14 +120,14 @@ class OllamaChat:
             body["format"] = "json"
         return body
 
-    def read(self, reply: WebReply, model: str) -> chat.RawReply:
+    def read(self, reply: WebReply, model: str) -> RawReply:
         """Translate a reply of Ollama into a chat completion."""
         body = chat.json_object(reply)
         message = body.get("message")
         if not isinstance(message, dict):
             raise BadAnswer(f"{reply.url} sent no chat message. Check base_url and the dialect.", reply.text)
         renamed = {"prompt_tokens": body.get("prompt_eval_count"), "completion_tokens": body.get("eval_count")}
-        return chat.RawReply(
+        return RawReply(
             text=chat.text_of(message.get("content")),
             model=chat.text_of(body.get("model")) or model,
             finish_reason=chat.text_of(body.get("done_reason")) or "stop",

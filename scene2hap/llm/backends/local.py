@@ -19,12 +19,13 @@ from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.answers.json_text import first_object
 from scene2hap.llm.answers.schema import fields_in_words
+from scene2hap.llm.answers.usable import RawReply, question_of, require_whole, unusable
 from scene2hap.llm.backends import chat, server_models
 from scene2hap.llm.backends.dialects import LADDER, ChatCompletions, Decoding, Dialect, OllamaChat, Rung
 from scene2hap.llm.backends.http_client import Endpoint
 from scene2hap.llm.backends.image_tokens import LostImages
 from scene2hap.llm.backends.optional_parameters import OptionalParameters
-from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.protocol import BackendWarning, LLMReply, LLMRequest
 
 if TYPE_CHECKING:
     from scene2hap.common.web import Transport
@@ -133,18 +134,18 @@ class LocalBackend:
             await self._check_eyes()
         said = await self._ask(request)
         self._lost_images.look(request, said)
-        chat.require_whole(said, chat.about(request))
+        require_whole(said, question_of(request))
         text = first_object(said.text) or said.text or first_object(said.thoughts)
         if not text:
-            message = f"{chat.about(request)}: {said.model} answered without content. Switch off its reasoning."
-            raise chat.unusable(said, message, said.thoughts)
+            message = f"{question_of(request)}: {said.model} answered without content. Switch off its reasoning."
+            raise unusable(said, message, said.thoughts)
         return LLMReply(text, said.model, said.finish_reason, said.usage, service_tier=said.service_tier)
 
     @property
     def _is_ollama(self) -> bool:
         return isinstance(self._dialect, OllamaChat)
 
-    async def _ask(self, request: LLMRequest) -> chat.RawReply:
+    async def _ask(self, request: LLMRequest) -> RawReply:
         for rung in range(self._rung, len(LADDER)):
             reply = await self._post(request, LADDER[rung])
             if reply.status not in _FORM_REJECTED or chat.is_withheld(reply):
@@ -193,5 +194,5 @@ class LocalBackend:
             warn_of(
                 f"{self._endpoint.base_url} is an Ollama, whose /v1 drops pictures that do not fit, without an error. "
                 "Use dialect='ollama' and the address without /v1.",
-                chat.BackendWarning,
+                BackendWarning,
             )

@@ -9,8 +9,8 @@ from typing import Any
 from scene2hap.common.warning import warn_of
 from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable
-from scene2hap.llm.backends.chat import BackendWarning
 from scene2hap.llm.backends.http_errors import ServerError, failure, server_error
+from scene2hap.llm.protocol import BackendWarning
 
 _GIVES_WAY = {
     "temperature": None,
