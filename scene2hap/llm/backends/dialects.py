@@ -17,8 +17,8 @@ from scene2hap.llm.answers.usable import RawReply
 from scene2hap.llm.backends import chat
 from scene2hap.llm.protocol import LLMRequest
 
-Rung = Literal["json_schema", "json_object", "prompt"]
-LADDER: tuple[Rung, ...] = ("json_schema", "json_object", "prompt")
+ResponseFormat = Literal["json_schema", "json_object", "prompt"]
+RESPONSE_FORMATS: tuple[ResponseFormat, ...] = ("json_schema", "json_object", "prompt")
 """Ways to prescribe the form of the answer in a request, strictest first. The last is the prompt alone."""
 
 
@@ -45,7 +45,7 @@ class Dialect(Protocol):
 
     path: str
 
-    def body(self, request: LLMRequest, model: str, text: str, rung: Rung) -> dict[str, Any]:
+    def body(self, request: LLMRequest, model: str, text: str, form: ResponseFormat) -> dict[str, Any]:
         """Return the body of a request. `text` is the prompt with the list of answer fields."""
         ...
 
@@ -61,7 +61,7 @@ class ChatCompletions:
     decoding: Decoding
     path = "chat/completions"
 
-    def body(self, request: LLMRequest, model: str, text: str, rung: Rung) -> dict[str, Any]:
+    def body(self, request: LLMRequest, model: str, text: str, form: ResponseFormat) -> dict[str, Any]:
         """Return the body of a chat completion."""
         optional = {
             "top_p": self.decoding.top_p,
@@ -77,9 +77,9 @@ class ChatCompletions:
             **{name: value for name, value in optional.items() if value is not None},
             **self.decoding.extra,
         }
-        if rung == "json_schema":
+        if form == "json_schema":
             body["response_format"] = chat.json_schema_format(request, local_schema(request.answer_schema))
-        elif rung == "json_object":
+        elif form == "json_object":
             body["response_format"] = {"type": "json_object"}
         return body
 
@@ -95,7 +95,7 @@ class OllamaChat:
     decoding: Decoding
     path = "api/chat"
 
-    def body(self, request: LLMRequest, model: str, text: str, rung: Rung) -> dict[str, Any]:
+    def body(self, request: LLMRequest, model: str, text: str, form: ResponseFormat) -> dict[str, Any]:
         """Return the body of Ollama's own chat request."""
         options = {
             "num_ctx": self.decoding.num_ctx,
@@ -114,9 +114,9 @@ class OllamaChat:
             "truncate": False,
             "options": options,
         }
-        if rung == "json_schema":
+        if form == "json_schema":
             body["format"] = local_schema(request.answer_schema)
-        elif rung == "json_object":
+        elif form == "json_object":
             body["format"] = "json"
         return body
 
