@@ -15,8 +15,8 @@ import numpy as np
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
 from scene2hap.cli.given_spec import given_spec
-from scene2hap.cli.play import UPDATE_S, SinkOutput, silence
 from scene2hap.cli.shared_options import session_config
+from scene2hap.cli.sink_output import UPDATE_S, SinkOutput, silence
 from scene2hap.common import checks
 from scene2hap.devices import SINKS
 from scene2hap.devices.wav import WavSink
@@ -65,8 +65,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         else:
             _play(session, touch, output, seconds)
     if not output.has_played:
-        reason = (output.problem or "the actuator did not start.").removesuffix(" Trying again.")
-        raise DeviceError(f"nothing was played: {reason} Connect the actuator, or write a file with -o.")
+        raise DeviceError(
+            f"nothing was played: {output.why_nothing_played} Connect the actuator, or write a file with -o."
+        )
     if output.problem:
         console.warn(output.problem)
     if arguments.output:

@@ -33,6 +33,7 @@ from scene2hap.llm.wrappers import is_remote
 from scene2hap.llm.wrappers.prices import price_list
 from scene2hap.scene.capture import capture_images
 from scene2hap.scene.capture.given_pictures import GivenPictures
+from scene2hap.scene.snapshot import SceneSnapshot
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -63,9 +64,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     if arguments.output is None and not arguments.dry_run:
         raise ConfigError("no output folder. Name one with -o BUNDLE, or ask for --dry-run.")
     config = BakeConfig.parse(bake_settings(arguments))
-    pictures = is_remote(config.llm) if arguments.pictures is None else arguments.pictures
     if arguments.dry_run:
-        return _dry_run(arguments, config, console, pictures=pictures)
+        return _dry_run(arguments, config, console)
     target = Path(arguments.output)
     overrides = read_overrides(target)
     require_replaceable(target)  # check before the model costs money
@@ -78,12 +78,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         tell("reading", arguments.scene, 0, 1)
         scene = read_scene(arguments)
         tell("reading", arguments.scene, 1, 1)
-        if arguments.pictures_from:
-            scene = GivenPictures.load(arguments.pictures_from).attach_to(scene)
-        elif pictures:
-            scene = capture_images(scene)
         bundle = bake(
-            scene,
+            _with_pictures(scene, arguments, config),
             config,
             user_prompt=arguments.prompt,
             progress=tell,
@@ -116,12 +112,21 @@ def bake_settings(arguments: argparse.Namespace) -> dict[str, Any]:
     return settings
 
 
-def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console, *, pictures: bool) -> dict[str, Any]:
+def wants_pictures(arguments: argparse.Namespace, config: BakeConfig) -> bool:
+    """Return True if the model is to see pictures: by default one with a network address."""
+    return is_remote(config.llm) if arguments.pictures is None else bool(arguments.pictures)
+
+
+def _with_pictures(scene: SceneSnapshot, arguments: argparse.Namespace, config: BakeConfig) -> SceneSnapshot:
+    if arguments.pictures_from:
+        return GivenPictures.load(arguments.pictures_from).attach_to(scene)
+    return capture_images(scene) if wants_pictures(arguments, config) else scene
+
+
+def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console) -> dict[str, Any]:
     if arguments.output is not None:
         require_replaceable(Path(arguments.output))  # as before a bake
-    scene = read_scene(arguments)
-    if pictures:
-        scene = capture_images(scene)
+    scene = _with_pictures(read_scene(arguments), arguments, config)
     estimate = asyncio.run(count_questions(scene, config, user_prompt=arguments.prompt))
     console.table(f"{scene.name}: questions of a bake", ("item", ">number"), estimate.rows())
     return estimate.as_json()

@@ -326,6 +326,19 @@ def test_values_that_may_be_empty(room: Path, tmp_path: Path) -> None:
     assert arguments.loop_back == ""
 
 
+def test_a_dry_run_counts_given_pictures(
+    room: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """They need no renderer: an engine has made them."""
+    monkeypatch.setattr("scene2hap.cli.bake.capture_images", lambda scene: pytest.fail("pictures are rendered"))
+    Image.new("RGB", (64, 64)).save(tmp_path / "above.png")
+    row = {"kind": "scene", "view": "above", "file": "above.png"}
+    (tmp_path / "pictures.json").write_text(json.dumps([row]))
+    words = ["bake", str(room), "--dry-run", "--llm", "openai:gpt-4o", "--pictures-from", str(tmp_path), "--json"]
+    assert main(words) == 0
+    assert json.loads(capsys.readouterr().out)["images"] == 1
+
+
 def test_pictures_that_cannot_be_made_are_an_error_before_any_table(
     room: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -22,7 +22,7 @@ from scene2hap.audio.encoding import encoded
 from scene2hap.bundle.differences import differences
 from scene2hap.cli import main
 from scene2hap.cli.console import Console
-from scene2hap.cli.play import silence
+from scene2hap.cli.sink_output import silence
 from scene2hap.errors import BadAnswer
 from scene2hap.llm.lexicon.backend import LexiconBackend
 from scene2hap.materials import Material
