@@ -118,10 +118,14 @@ class CommandParser(argparse.ArgumentParser):
             self.set_defaults(run=module.run)
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """Parse as argparse does, and keep the arguments for `error`."""
+        """Parse as argparse does, and keep the arguments for `error`. No argument may be left, so that the usage in an
+        error is that of the command or verb."""
         self.load()
         self._given = tuple(sys.argv[1:] if args is None else args)
-        return super().parse_known_args(args, namespace)
+        known, unknown = super().parse_known_args(args, namespace)
+        if unknown:
+            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+        return known, unknown
 
     def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
         """Reject an empty value, such as that of an unset variable of a shell, where it means nothing."""

@@ -139,7 +139,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="a name in the table, see `scene2hap list materials`, or JSON, see `scene2hap edit --help`",
     )
     mass = verb("mass", "set the mass of a whole object", _overridden)
-    mass.add_argument("mass_kg", metavar="KG", type=float)
+    mass.add_argument("mass_kg", metavar="KG", type=float, help="in kilograms, with its usual contents")
     thickness = verb("thickness", "set the thickness of an object's main surface", _overridden)
     thickness.add_argument("thickness_m", metavar="M", type=float, help="in metres; 0.001 is a sheet of 1 mm")
     feet = verb("feet", "set the material of an object's feet", _overridden)
@@ -152,7 +152,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     sound.add_argument("--watch", action="store_true", help="repeat whenever the file is saved, until Ctrl-C")
     state = verb("state", "set the state that an object has at the start", _overridden)
-    state.add_argument("state", metavar="NAME")
+    state.add_argument("state", metavar="NAME", help="one of its states, see `scene2hap inspect BUNDLE`")
     for name, text, changes in (
         ("mute", "silence a source until a game unmutes it; its loops are kept", {"muted": True}),
         ("unmute", "play a muted source again", {"muted": False}),

@@ -23,7 +23,9 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--names", metavar="FILE", help="CSV or JSON with names of templates, for Habitat scenes that name them by hash"
     )
-    parser.add_argument("--up-axis", choices=("y", "z"), help="y or z, overriding the axis of the file's format")
+    parser.add_argument(
+        "--up-axis", metavar="AXIS", choices=("y", "z"), help="y or z, overriding the axis of the file's format"
+    )
     parser.add_argument(
         "--group",
         metavar="RULE",

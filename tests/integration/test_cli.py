@@ -355,6 +355,20 @@ def test_pictures_that_cannot_be_made_are_an_error_before_any_table(
     assert (said.out, "pip install 'scene2hap[pictures]'" in said.err) == ("", True)
 
 
+@pytest.mark.parametrize(
+    ("words", "usage"),
+    [(("bake", "x.glb", "b.bundle"), "scene2hap bake [-h]"), (("edit", "b", "gain", "fan", "-6", "dB"), "gain [-h]")],
+)
+def test_a_word_too_many_shows_the_usage_of_its_command(
+    capsys: pytest.CaptureFixture[str], words: tuple[str, ...], usage: str
+) -> None:
+    with pytest.raises(SystemExit):
+        main(words)
+    said = capsys.readouterr().err
+    assert usage in said
+    assert said.endswith(f"error: unrecognized arguments: {words[-1]}\n")
+
+
 def test_an_option_of_commands_before_the_command_is_explained(capsys: pytest.CaptureFixture[str]) -> None:
     for words, is_told in ((["--json", "inspect", "x.glb"], True), (["inspect", "x.glb", "--json", "--bogus"], False)):
         with pytest.raises(SystemExit):
