@@ -22,12 +22,12 @@ from scene2hap.bundle.differences import differ
 from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
 from scene2hap.bundle.history import require_steps, step_beside
 from scene2hap.bundle.overrides_file import read_overrides
-from scene2hap.bundle.writing import write_edited
+from scene2hap.bundle.writing import write_bundle, write_edited
 from scene2hap.cli.console import Console
 from scene2hap.cli.scene_options import add_scene_arguments, read_scene
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
-from scene2hap.errors import BundleError, ConfigError
+from scene2hap.errors import BundleChanged, BundleError, ConfigError
 from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.wrappers import is_remote
 from scene2hap.llm.wrappers.prices import price_list
@@ -66,12 +66,20 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     config = BakeConfig.parse(bake_settings(arguments))
     if arguments.dry_run:
         return _dry_run(arguments, config, console)
+    while True:
+        try:
+            return _bake_once(arguments, config, console)
+        except BundleChanged:
+            continue  # Another process has edited the bundle in the meantime. The cache has the answers.
+
+
+def _bake_once(arguments: argparse.Namespace, config: BakeConfig, console: Console) -> dict[str, Any]:
     target = Path(arguments.output)
+    read = save_stamp(target)
     overrides = read_overrides(target)
     require_replaceable(target)  # check before the model costs money
-    is_there = save_stamp(target) is not None
     before, unreadable = readable_bundle(target)
-    if is_there:
+    if read is not None:
         require_steps(target)
     accounts: list[InferenceReport] = []
     with console.progress() as tell:
@@ -87,8 +95,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             overrides=overrides,
             earlier=before or bundle_before(target, overrides),
         )
-    kept = is_there and (before is None or differ(before, bundle))
-    folder = write_edited(bundle, target, before) if kept else bundle.save(target)
+    kept = read is not None and (before is None or differ(before, bundle))
+    folder = write_edited(bundle, target, before, read) if kept else write_bundle(bundle, target, read)
     try:
         write_account(folder, {**accounts[0].as_json(), "cost_usd": accounts[0].cost_usd(price_list(config.prices))})
     except BundleError as problem:  # the bundle is whole without its account

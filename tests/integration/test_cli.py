@@ -13,7 +13,7 @@ import trimesh
 from PIL import Image
 
 from files_of import files_of
-from scene2hap import Box, Pose, SceneObject, SceneSnapshot
+from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake
 from scene2hap.cli import command_parser, main
 from scene2hap.demo import kitchen_path
 from scene2hap.render.safety import FADE_OUT_S
@@ -117,6 +117,24 @@ def test_your_own_sounds_come_first(room: Path, tmp_path: Path) -> None:
     assert loops["microwave"]["on"]["frequency_raw_hz"] == pytest.approx(120, abs=0.05)
     assert loops["microwave"]["on"]["credit"]["author"] == "unknown"
     assert loops["refrigerator"]["on"]["credit"]["author"] == "scene2hap synthesizer"
+
+
+def test_an_edit_while_a_bake_runs_is_kept(room: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A bake with a model takes minutes, and a designer has a second terminal."""
+    folder = tmp_path / "b"
+    assert main(["bake", str(room), "-o", str(folder), "-q"]) == 0
+    baked = []
+
+    def bake_and_be_overtaken(*given: object, **settings: object) -> HapticBundle:
+        baked.append(bake(*given, **settings))
+        if len(baked) == 1:
+            assert main(["edit", str(folder), "gain", "microwave", "-6", "-q"]) == 0
+        return baked[-1]
+
+    monkeypatch.setattr("scene2hap.cli.bake.bake", bake_and_be_overtaken)
+    assert main(["bake", str(room), "-o", str(folder), "-q"]) == 0
+    assert HapticBundle.load(folder).gain_db("microwave") == -6.0
+    assert len(baked) == 2
 
 
 def test_only_a_bake_that_changes_something_keeps_the_bundle_before(tmp_path: Path) -> None:
