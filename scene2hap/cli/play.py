@@ -21,7 +21,7 @@ from scene2hap.cli.console import Console
 from scene2hap.cli.given_spec import given_spec
 from scene2hap.cli.keys import DOWN, LEFT, RIGHT, UP, keys
 from scene2hap.cli.plan import Plan
-from scene2hap.cli.shared_options import session_config
+from scene2hap.cli.shared_options import add_session_arguments, session_config
 from scene2hap.cli.sink_output import UPDATE_S, SinkOutput, silence
 from scene2hap.devices import SINKS
 from scene2hap.errors import ConfigError
@@ -43,8 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--solo", action="append", default=[], metavar="ID", help="play this source and no others; may be repeated"
     )
-    parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
-    parser.add_argument("--profile", metavar="FILE", help="levels and limits of a person, see docs/profiles.md")
+    add_session_arguments(parser)
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
