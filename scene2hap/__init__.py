@@ -46,12 +46,11 @@ _NAMES_IN = {
     "scene2hap.audio.haptic_loop": ("HapticLoop",),
     "scene2hap.audio.protocol": ("AudioSource", "ConversionContext", "TactileConverter"),
     "scene2hap.audio.select": ("select_clip",),
-    "scene2hap.llm.protocol": ("LLMBackend", "LLMReply", "LLMRequest"),
+    "scene2hap.llm.protocol": ("BackendWarning", "LLMBackend", "LLMReply", "LLMRequest"),
     "scene2hap.llm.lexicon": ("LexiconBackend",),
     "scene2hap.llm.backends.openai": ("OpenAIBackend",),
     "scene2hap.llm.backends.local": ("LocalBackend",),
     "scene2hap.llm.backends.function": ("FunctionBackend",),
-    "scene2hap.llm.backends.chat": ("BackendWarning",),
     "scene2hap.llm.wrappers": (
         "BudgetBackend",
         "CacheBackend",
@@ -200,14 +199,18 @@ if TYPE_CHECKING:
         SourceState as SourceState,
         VibrationDescription as VibrationDescription,
     )
-    from scene2hap.llm.backends.chat import BackendWarning as BackendWarning
     from scene2hap.llm.backends.function import FunctionBackend as FunctionBackend
     from scene2hap.llm.backends.local import LocalBackend as LocalBackend
     from scene2hap.llm.backends.openai import OpenAIBackend as OpenAIBackend
     from scene2hap.llm.backends.replay import RecordingBackend as RecordingBackend, ReplayBackend as ReplayBackend
     from scene2hap.llm.chain import infer_haptics as infer_haptics
     from scene2hap.llm.lexicon import LexiconBackend as LexiconBackend
-    from scene2hap.llm.protocol import LLMBackend as LLMBackend, LLMReply as LLMReply, LLMRequest as LLMRequest
+    from scene2hap.llm.protocol import (
+        BackendWarning as BackendWarning,
+        LLMBackend as LLMBackend,
+        LLMReply as LLMReply,
+        LLMRequest as LLMRequest,
+    )
     from scene2hap.llm.wrappers import (
         BudgetBackend as BudgetBackend,
         CacheBackend as CacheBackend,

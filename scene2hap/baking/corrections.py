@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Collection, Mapping
 from dataclasses import replace
-from pathlib import Path
 
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.sound import Progress, no_progress
-from scene2hap.bundle import BundleWarning, HapticBundle, Override
-from scene2hap.bundle.checking import require_savable
-from scene2hap.bundle.folder import read_bundle
+from scene2hap.baking.loops import Progress, no_progress
+from scene2hap.bundle import BundleWarning, Override
 from scene2hap.bundle.pending_corrections import reason_of_name
 from scene2hap.common import checks
 from scene2hap.common.counted import counted
 from scene2hap.common.warning import warn_of
-from scene2hap.errors import BackendError, BundleError, ConfigError
+from scene2hap.errors import BackendError, ConfigError
 from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
 from scene2hap.llm.chain import Inference, infer_scene
 from scene2hap.llm.chain.questions import ConcurrencyLimit
@@ -54,36 +50,6 @@ def overrides_of_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) 
                 BundleWarning,
             )
     return {key: override for key, override in overrides.items() if key in known}
-
-
-def bundle_before(folder: Path, overrides: Mapping[str, Override]) -> HapticBundle | None:
-    """Return the bundle in a folder, without its overrides, from which a bake keeps loops; None if it cannot be read.
-
-    Its overrides may be those of the next scene: a person renames objects in them before the scene is baked again.
-    Raises: BundleError: it cannot be read, and a person has locked loops in it.
-    """
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about values that the bake replaces
-            found = HapticBundle(**vars(read_bundle(folder, overrides={})))
-        require_savable(found, folder)
-        return found
-    except BundleError:
-        if any(override.locked for override in overrides.values()):
-            raise
-        return None
-
-
-def readable_bundle(folder: Path) -> tuple[HapticBundle | None, str]:
-    """Return the bundle in a folder, or None and why there is none that can be read and saved: a bake mends it."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about values that the bake replaces
-            found = HapticBundle.load(folder)
-        require_savable(found, folder)
-        return found, ""
-    except BundleError as cause:
-        return None, str(cause)
 
 
 async def infer_corrected(

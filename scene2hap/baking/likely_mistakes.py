@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.sensation import LevelWarning, Sensation, level_doubt
 from scene2hap.audio.threshold import FREQUENCY_WEBER, NOTICED_DB
-from scene2hap.baking.sound import Sounds, in_band_hz
+from scene2hap.baking.loops import Sounds, in_band_hz
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.bundle.checking import vain_corrections
 from scene2hap.common.counted import counted, first_of

@@ -27,8 +27,9 @@ from scene2hap.baking.likely_mistakes import (
     warn_of_vain_corrections,
     warn_of_weak_loops,
 )
+from scene2hap.baking.loops import Progress, Remade, Sounds, make_loops
 from scene2hap.baking.recorded_times import with_recorded_times
-from scene2hap.baking.sound import EarlierLoops, Progress, Remade, Sounds, make_loops
+from scene2hap.baking.sound_choice import EarlierLoops
 from scene2hap.bundle import HapticBundle, MadeWith, Override
 from scene2hap.bundle.arguments import given_bundle
 from scene2hap.bundle.edited_loops import is_edited

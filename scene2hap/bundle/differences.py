@@ -11,7 +11,7 @@ import numpy as np
 
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle.contents import BundleContents
-from scene2hap.bundle.override import ANY_STATE
+from scene2hap.bundle.override import ANY_STATE, NONE
 from scene2hap.errors import UnknownMaterial
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.materials import lookup
@@ -41,6 +41,17 @@ def differences(one: BundleContents, other: BundleContents) -> tuple[Difference,
         for before, after in [[side[object_id].get(what, _UNTOUCHED.get(what, "-")) for side in sides]]
         if before != after
     )
+
+
+def differ(one: BundleContents, other: BundleContents) -> bool:
+    """Return True if a person sees a difference, so that `undo` has something to restore.
+
+    Corrections that correct nothing, such as `unmute` of an object that is not muted, make none.
+    """
+    corrections = [
+        {key: override for key, override in bundle.overrides.items() if override != NONE} for bundle in (one, other)
+    ]
+    return one.objects != other.objects or bool(differences(one, other)) or corrections[0] != corrections[1]
 
 
 def _said(bundle: BundleContents, object_id: str) -> Iterator[tuple[str, str]]:

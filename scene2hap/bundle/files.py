@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+import os
 import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from pydantic import ValidationError
+
+from scene2hap.common import checks
 from scene2hap.common.files import LFS_ADVICE, is_lfs_pointer
 from scene2hap.common.json_texts import parse_json
-from scene2hap.errors import BundleError, BundleIncomplete, reason_of
+from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2HapError, SceneError, reason_of
 
 MAX_FILE_BYTES = 1 << 28
 """Larger JSON and mesh files are rejected before they are read; assumed: 256 MiB are some 7 million triangles."""
+_DAMAGE = (ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RecursionError, TypeError, ValueError)
+"""Errors that Python raises for documents of the wrong shape, for huge numbers, and for files that disappear."""
 
 
 def read_json(folder: Path, name: str) -> dict[str, Any]:
@@ -74,3 +82,27 @@ def inside(folder: Path, name: object) -> Path:
     if not path.is_relative_to(home):
         raise BundleError(f"{folder} refers to {name[:80]!r}, outside itself; a bundle only reads its own files.")
     return path
+
+
+@contextmanager
+def reading(path: Path, place: str = "") -> Iterator[None]:
+    """Convert errors of the block into a BundleError, or a child of it, that names the file and the place in it."""
+    try:
+        yield
+    except BundleError as cause:
+        if str(cause).startswith((f"{path.parent} ", f"{path.parent}{os.sep}")):  # it names the file already
+            raise
+        raise type(cause)(f"{path}: {place}{cause}") from cause
+    except ValidationError as cause:
+        problem = checks.first_problem(cause)
+        value = checks.represented(problem.value)
+        raise BundleError(f"{path}: {place}{problem.place[:200]} is {value}: {problem.reason}.") from cause
+    except (AudioError, SceneError) as cause:
+        raise BundleIncomplete(f"{path}: {place}{cause}") from cause
+    except Scene2HapError as cause:
+        raise BundleError(f"{path}: {place}{cause}") from cause
+    except KeyError as cause:
+        raise BundleError(f"{path}: {place}it lacks {cause}. Bake again, or mend the file.") from cause
+    except _DAMAGE as cause:  # a file may be damaged in any way
+        reason = str(cause)[:200] or type(cause).__name__
+        raise BundleError(f"{path}: {place}invalid content: {reason}. Bake again, or correct the file.") from cause

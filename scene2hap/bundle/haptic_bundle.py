@@ -15,7 +15,6 @@ from scene2hap.bundle.checking import require_plausible
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.corrections import read_corrections
 from scene2hap.bundle.edited_loops import to_be_made_again
-from scene2hap.bundle.folder import read_bundle, write_bundle
 from scene2hap.bundle.notebook import bundle_table
 from scene2hap.bundle.override import (
     ANY_STATE,
@@ -27,6 +26,8 @@ from scene2hap.bundle.override import (
     answers_before,
     warn_if_percent,
 )
+from scene2hap.bundle.reading import read_bundle
+from scene2hap.bundle.writing import write_bundle
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_calls

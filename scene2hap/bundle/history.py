@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Literal
 
 from scene2hap.bundle.checking import BundleWarning
+from scene2hap.bundle.folder_replacement import require_replaceable
 from scene2hap.bundle.foreign_files import discard
 from scene2hap.bundle.manifest import MANIFEST
 from scene2hap.common.files import rename
@@ -33,6 +34,12 @@ def step_beside(bundle: Path, kind: Kind) -> Path:
 def steps_beside(bundle: Path, kind: Kind) -> list[Path]:
     """Return the folders of the steps that exist, the nearest first."""
     return [folder for folder in _places(step_beside(bundle, kind)) if os.path.lexists(folder)]
+
+
+def require_steps(bundle: Path) -> None:
+    """Check that the folders of a bundle's steps can be replaced. Raises: BundleError: as `require_replaceable`."""
+    for step in [*steps_beside(bundle, "before"), *steps_beside(bundle, "after")]:
+        require_replaceable(step)
 
 
 def push(old: Path, nearest: Path) -> None:

@@ -23,6 +23,7 @@ from scene2hap.audio.run_curve import RunCurve
 from scene2hap.audio.sensation import Sensation
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.files import own_file
+from scene2hap.common.printable import without_accents
 
 _KINDS = ("audible", "tactile", "source")
 _RUNS = ("start_up", "wind_down")
@@ -98,8 +99,8 @@ class SoundReader:
 
 
 def file_stem(text: str) -> str:
-    """Return a file name for any id. Ids with equal plain letters get different short digests."""
-    plain = re.sub(r"[^A-Za-z0-9_-]+", "-", text).strip("-")[:60]
+    """Return a file name of ASCII letters for any id. Ids with equal plain letters get different short digests."""
+    plain = re.sub(r"[^A-Za-z0-9_-]+", "-", without_accents(text)).strip("-")[:60]
     return plain if plain == text and not _RESERVED.fullmatch(plain) else f"{plain or 'x'}-{_digest(text)}"
 
 

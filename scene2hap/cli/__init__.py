@@ -118,10 +118,21 @@ class CommandParser(argparse.ArgumentParser):
             self.set_defaults(run=module.run)
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """Parse as argparse does, and keep the arguments for `error`."""
+        """Parse as argparse does, and keep the arguments for `error`. No argument may be left, so that the usage in an
+        error is that of the command or verb."""
         self.load()
         self._given = tuple(sys.argv[1:] if args is None else args)
-        return super().parse_known_args(args, namespace)
+        known, unknown = super().parse_known_args(args, namespace)
+        if unknown:
+            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+        return known, unknown
+
+    def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
+        """Reject an empty value, such as that of an unset variable of a shell, where it means nothing."""
+        is_command = action.nargs == argparse.PARSER  # its values are all words behind it
+        if not arg_string and not is_command and arg_string not in (action.default, action.const):
+            raise argparse.ArgumentError(action, "its value is empty; is a variable of the shell not set?")
+        return super()._get_value(action, arg_string)
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         try:

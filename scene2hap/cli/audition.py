@@ -15,8 +15,8 @@ import numpy as np
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
 from scene2hap.cli.given_spec import given_spec
-from scene2hap.cli.play import UPDATE_S, SinkOutput, silence
-from scene2hap.cli.shared_options import session_config
+from scene2hap.cli.shared_options import add_session_arguments, session_config
+from scene2hap.cli.sink_output import UPDATE_S, SinkOutput, silence
 from scene2hap.common import checks
 from scene2hap.devices import SINKS
 from scene2hap.devices.wav import WavSink
@@ -39,8 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seconds", type=float, default=5.0, help="duration in seconds (5)")
     parser.add_argument("-o", "--output", metavar="WAV", help="write a file instead of playing")
     parser.add_argument("--sink", default="soundcard", help="where to play: a kind, or JSON with one (soundcard)")
-    parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
-    parser.add_argument("--profile", metavar="FILE", help="levels and limits of a person, see docs/profiles.md")
+    add_session_arguments(parser)
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
@@ -65,8 +64,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         else:
             _play(session, touch, output, seconds)
     if not output.has_played:
-        reason = (output.problem or "the actuator did not start.").removesuffix(" Trying again.")
-        raise DeviceError(f"nothing was played: {reason} Connect the actuator, or write a file with -o.")
+        raise DeviceError(
+            f"nothing was played: {output.why_nothing_played} Connect the actuator, or write a file with -o."
+        )
     if output.problem:
         console.warn(output.problem)
     if arguments.output:

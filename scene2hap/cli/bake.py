@@ -15,23 +15,24 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
-from scene2hap.baking.corrections import bundle_before, readable_bundle
+from scene2hap.baking.bundle_before import bundle_before, readable_bundle
 from scene2hap.baking.questions import count_questions
 from scene2hap.bundle.account import write_account
-from scene2hap.bundle.folder import read_overrides, write_edited
+from scene2hap.bundle.differences import differ
 from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
-from scene2hap.bundle.history import step_beside
+from scene2hap.bundle.history import require_steps, step_beside
+from scene2hap.bundle.overrides_file import read_overrides
+from scene2hap.bundle.writing import write_bundle, write_edited
 from scene2hap.cli.console import Console
-from scene2hap.cli.edit import is_other, require_steps
+from scene2hap.cli.scene_options import add_scene_arguments, read_scene
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
-from scene2hap.errors import BundleError, ConfigError
+from scene2hap.errors import BundleChanged, BundleError, ConfigError
 from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.wrappers import is_remote
 from scene2hap.llm.wrappers.prices import price_list
 from scene2hap.scene.capture import capture_images
 from scene2hap.scene.capture.given_pictures import GivenPictures
-from scene2hap.scene.load import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
 
 
@@ -46,10 +47,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_scene_arguments(parser)
 
 
-SCENE_ARGUMENTS = ("unit_m", "assets_root", "names", "up_axis", "group")
-"""See `add_scene_arguments`."""
-
-
 def add_model_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments that choose the model, its pictures and the sound sources."""
     add_backend_arguments(parser)
@@ -62,69 +59,35 @@ def add_model_arguments(parser: argparse.ArgumentParser) -> None:
     add_loop_arguments(parser)
 
 
-def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments for scene files with missing or wrong information."""
-    parser.add_argument(
-        "--unit-m", type=float, metavar="METRES", help="metres per unit of the file, overriding its own"
-    )
-    parser.add_argument(
-        "--assets-root", metavar="FOLDER", help="folder from which the file may read; default: its own folder"
-    )
-    parser.add_argument(
-        "--names", metavar="FILE", help="CSV or JSON with names of templates, for Habitat scenes that name them by hash"
-    )
-    parser.add_argument("--up-axis", choices=("y", "z"), help="y or z, overriding the axis of the file's format")
-    parser.add_argument(
-        "--group",
-        metavar="RULE",
-        help="authored (default), leaf, loose, or a depth in the node tree (0: one object)",
-    )
-
-
-def read_scene(arguments: argparse.Namespace) -> SceneSnapshot:
-    """Read the scene file in the arguments."""
-    return load_scene(arguments.scene, **scene_options(arguments))
-
-
-def scene_options(arguments: argparse.Namespace) -> dict[str, Any]:
-    """Return the arguments of `load_scene` except the path."""
-    group = arguments.group or "authored"
-    is_depth = group.isascii() and group.isdigit() and len(group) < 10
-    return {
-        "up_axis": arguments.up_axis,
-        "unit_m": arguments.unit_m,
-        "group": int(group) if is_depth else group,
-        "assets_root": arguments.assets_root,
-        **({"names": arguments.names} if arguments.names else {}),
-    }
-
-
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Bake, save, and show the result of the inference and its cost."""
     if arguments.output is None and not arguments.dry_run:
         raise ConfigError("no output folder. Name one with -o BUNDLE, or ask for --dry-run.")
     config = BakeConfig.parse(bake_settings(arguments))
-    pictures = is_remote(config.llm) if arguments.pictures is None else arguments.pictures
     if arguments.dry_run:
-        return _dry_run(arguments, config, console, pictures=pictures)
+        return _dry_run(arguments, config, console)
+    while True:
+        try:
+            return _bake_once(arguments, config, console)
+        except BundleChanged:
+            continue  # Another process has edited the bundle in the meantime. The cache has the answers.
+
+
+def _bake_once(arguments: argparse.Namespace, config: BakeConfig, console: Console) -> dict[str, Any]:
     target = Path(arguments.output)
+    read = save_stamp(target)
     overrides = read_overrides(target)
     require_replaceable(target)  # check before the model costs money
-    is_there = save_stamp(target) is not None
     before, unreadable = readable_bundle(target)
-    if is_there:
+    if read is not None:
         require_steps(target)
     accounts: list[InferenceReport] = []
     with console.progress() as tell:
         tell("reading", arguments.scene, 0, 1)
         scene = read_scene(arguments)
         tell("reading", arguments.scene, 1, 1)
-        if arguments.pictures_from:
-            scene = GivenPictures.load(arguments.pictures_from).attach_to(scene)
-        elif pictures:
-            scene = capture_images(scene)
         bundle = bake(
-            scene,
+            _with_pictures(scene, arguments, config),
             config,
             user_prompt=arguments.prompt,
             progress=tell,
@@ -132,8 +95,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             overrides=overrides,
             earlier=before or bundle_before(target, overrides),
         )
-    kept = is_there and (before is None or is_other(before, bundle))
-    folder = write_edited(bundle, target, before) if kept else bundle.save(target)
+    kept = read is not None and (before is None or differ(before, bundle))
+    folder = write_edited(bundle, target, before, read) if kept else write_bundle(bundle, target, read)
     try:
         write_account(folder, {**accounts[0].as_json(), "cost_usd": accounts[0].cost_usd(price_list(config.prices))})
     except BundleError as problem:  # the bundle is whole without its account
@@ -157,12 +120,21 @@ def bake_settings(arguments: argparse.Namespace) -> dict[str, Any]:
     return settings
 
 
-def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console, *, pictures: bool) -> dict[str, Any]:
+def wants_pictures(arguments: argparse.Namespace, config: BakeConfig) -> bool:
+    """Return True if the model is to see pictures: by default one with a network address."""
+    return is_remote(config.llm) if arguments.pictures is None else bool(arguments.pictures)
+
+
+def _with_pictures(scene: SceneSnapshot, arguments: argparse.Namespace, config: BakeConfig) -> SceneSnapshot:
+    if arguments.pictures_from:
+        return GivenPictures.load(arguments.pictures_from).attach_to(scene)
+    return capture_images(scene) if wants_pictures(arguments, config) else scene
+
+
+def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console) -> dict[str, Any]:
     if arguments.output is not None:
         require_replaceable(Path(arguments.output))  # as before a bake
-    scene = read_scene(arguments)
-    if pictures:
-        scene = capture_images(scene)
+    scene = _with_pictures(read_scene(arguments), arguments, config)
     estimate = asyncio.run(count_questions(scene, config, user_prompt=arguments.prompt))
     console.table(f"{scene.name}: questions of a bake", ("item", ">number"), estimate.rows())
     return estimate.as_json()

@@ -21,12 +21,12 @@ from typing import Any
 
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.many import ManyReport, bake_many, plan_many
-from scene2hap.cli.bake import add_model_arguments, add_scene_arguments, bake_settings, scene_options
+from scene2hap.cli.bake import add_model_arguments, bake_settings, wants_pictures
 from scene2hap.cli.console import Console
+from scene2hap.cli.scene_options import add_scene_arguments, scene_options
 from scene2hap.common.counted import counted
 from scene2hap.common.printable import quoted
 from scene2hap.errors import ConfigError, SceneError
-from scene2hap.llm.wrappers import is_remote
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -67,7 +67,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             config=config,
             executor=arguments.executor,
             options=scene_options(arguments),
-            pictures=_pictures(arguments, config),
+            pictures=wants_pictures(arguments, config),
             user_prompt=arguments.prompt,
             progress=progress,
         )
@@ -80,10 +80,6 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     return outcome
 
 
-def _pictures(arguments: argparse.Namespace, config: BakeConfig) -> bool:
-    return is_remote(config.llm) if arguments.pictures is None else bool(arguments.pictures)
-
-
 def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console) -> dict[str, Any]:
     with console.progress() as tell:
         plans = plan_many(
@@ -91,7 +87,7 @@ def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console
             arguments.output,
             config=config,
             options=scene_options(arguments),
-            pictures=_pictures(arguments, config),
+            pictures=wants_pictures(arguments, config),
             user_prompt=arguments.prompt,
             progress=lambda stage, name, done, total: tell("planning", f"{name} ({stage})", done, total),
         )

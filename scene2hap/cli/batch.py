@@ -16,9 +16,10 @@ from typing import Any
 
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.many.batch import BatchReport, batch_status, collect_batch, submit_batch
-from scene2hap.cli.bake import scene_options
+from scene2hap.cli.bake import wants_pictures
 from scene2hap.cli.bake_many import add_many_arguments, files, many_settings
 from scene2hap.cli.console import Console
+from scene2hap.cli.scene_options import scene_options
 from scene2hap.errors import ConfigError, SceneError
 
 
@@ -49,7 +50,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
                 config=config,
                 executor=arguments.executor,
                 options=scene_options(arguments),
-                pictures=arguments.pictures is not False,
+                pictures=wants_pictures(arguments, config),
                 user_prompt=arguments.prompt,
                 progress=lambda stage, name, done, total: tell("asking", f"{name} ({stage})", done, total),
             )

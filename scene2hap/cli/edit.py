@@ -45,12 +45,12 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.baking import BakeConfig, rebake
-from scene2hap.baking.sound import Remade
+from scene2hap.baking.loops import Remade
 from scene2hap.bundle import HapticBundle, Override
-from scene2hap.bundle.differences import differences
-from scene2hap.bundle.folder import write_both, write_edited
-from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
-from scene2hap.bundle.history import MOST_STEPS, Kind, pop, step_beside, steps_beside, warned_of_steps
+from scene2hap.bundle.differences import differ, differences
+from scene2hap.bundle.folder_replacement import save_stamp
+from scene2hap.bundle.history import MOST_STEPS, Kind, pop, require_steps, step_beside, steps_beside, warned_of_steps
+from scene2hap.bundle.writing import write_both, write_edited
 from scene2hap.cli.console import Console, Tell
 from scene2hap.cli.given_spec import given_spec
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
@@ -139,7 +139,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="a name in the table, see `scene2hap list materials`, or JSON, see `scene2hap edit --help`",
     )
     mass = verb("mass", "set the mass of a whole object", _overridden)
-    mass.add_argument("mass_kg", metavar="KG", type=float)
+    mass.add_argument("mass_kg", metavar="KG", type=float, help="in kilograms, with its usual contents")
     thickness = verb("thickness", "set the thickness of an object's main surface", _overridden)
     thickness.add_argument("thickness_m", metavar="M", type=float, help="in metres; 0.001 is a sheet of 1 mm")
     feet = verb("feet", "set the material of an object's feet", _overridden)
@@ -152,7 +152,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     sound.add_argument("--watch", action="store_true", help="repeat whenever the file is saved, until Ctrl-C")
     state = verb("state", "set the state that an object has at the start", _overridden)
-    state.add_argument("state", metavar="NAME")
+    state.add_argument("state", metavar="NAME", help="one of its states, see `scene2hap inspect BUNDLE`")
     for name, text, changes in (
         ("mute", "silence a source until a game unmutes it; its loops are kept", {"muted": True}),
         ("unmute", "play a muted source again", {"muted": False}),
@@ -214,13 +214,13 @@ def _edit_once(arguments: argparse.Namespace, config: BakeConfig, console: Conso
         show_report(console, remaking.report, remaking.config.prices)
     all_changes = () if before is None else differences(before, after)
     moved = _STEPS.get(arguments.verb)
-    if before is not None and not remade and not is_other(before, after):
+    if before is not None and not remade and not differ(before, after):
         if moved is not None:  # an undo or a redo that was interrupted has left this step behind
             pop(Path(arguments.bundle), moved[0])
             return _edit_once(arguments, config, console)
         # Saving would keep an equal bundle as a step, so that an undo would change nothing.
         console.say(f"nothing changed; {arguments.bundle} stays as it was")
-        return {"bundle": str(arguments.bundle), "remade": remade}
+        return {"bundle": str(arguments.bundle), "differences": [], "remade": remade}
     folder = Path(arguments.bundle)
     if moved is None:
         write_edited(after, folder, before, since=read)
@@ -250,7 +250,7 @@ def _edit_once(arguments: argparse.Namespace, config: BakeConfig, console: Conso
     if moved is not None:
         n_back, n_forward = (len(steps_beside(folder, kind)) for kind in ("before", "after"))
         console.say(f"{counted(n_back, 'step')} back by undo, {counted(n_forward, 'step')} forward by redo")
-    return {"bundle": str(folder), "remade": remade}
+    return {"bundle": str(folder), "differences": [tuple(row) for row in all_changes], "remade": remade}
 
 
 def _present(arguments: argparse.Namespace) -> tuple[HapticBundle | None, BundleError | None]:
@@ -268,11 +268,6 @@ def _without_values(verb: str, n_loops: int) -> str:
     if verb not in _STEPS:
         return "the values stay; noted as yours, for later bakes"
     return f"{counted(n_loops, 'loop') if n_loops else 'the corrections'} of the bundle {_STEPS[verb][0]}"
-
-
-def wishes(bundle: HapticBundle) -> dict[str, Override]:
-    """Return the corrections that correct something, unlike `unmute` of an object that is not muted."""
-    return {object_id: wish for object_id, wish in bundle.overrides.items() if wish != Override()}
 
 
 _IN_WORDS = {"plan": "its place among the sources"}
@@ -346,14 +341,3 @@ def _undone(bundle: HapticBundle | None, remaking: Rebake) -> HapticBundle:
         reason = f"; up to {MOST_STEPS} steps are kept" if verb == "undo" else "; an edit after an undo removes it"
         raise BundleError(f"there is nothing to {verb}: {quoted(step_beside(folder, kind))} does not exist{reason}.")
     return HapticBundle.load(steps[0])
-
-
-def require_steps(folder: Path) -> None:
-    """Check that the folders of a bundle's steps can be replaced. Raises: BundleError: as `require_replaceable`."""
-    for step in [*steps_beside(folder, "before"), *steps_beside(folder, "after")]:
-        require_replaceable(step)
-
-
-def is_other(before: HapticBundle, after: HapticBundle) -> bool:
-    """Return True if an edit or a bake has changed something, so that `undo` has something to restore."""
-    return before.objects != after.objects or bool(differences(before, after)) or wishes(before) != wishes(after)

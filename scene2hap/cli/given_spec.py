@@ -13,4 +13,5 @@ def given_spec(option: str, text: str) -> object:
     try:
         return parse_json(text)
     except ValueError as cause:
-        raise ConfigError(f"{option} is {text!r}, which is no JSON ({cause}). Give a name, or an object.") from cause
+        # The text is not shown, since it may hold a key.
+        raise ConfigError(f"{option} is no JSON ({cause}). Give a name, or an object.") from cause

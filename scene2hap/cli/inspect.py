@@ -26,15 +26,22 @@ from typing import Any
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.sounds import file_stems
-from scene2hap.cli.bake import SCENE_ARGUMENTS, add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
+from scene2hap.cli.scene_options import SCENE_ARGUMENTS, add_scene_arguments, read_scene
 from scene2hap.cli.shared_options import reject_unused
 from scene2hap.cli.tables import bundle_outcome, scene_outcome, show_bundle, show_scene
 from scene2hap.common.counted import counted
 from scene2hap.common.files import require_place, write_whole
 from scene2hap.common.printable import quoted
 from scene2hap.errors import SceneError, unwritable
-from scene2hap.scene.capture import capture_images, contact_sheet, plan_view, render_all
+from scene2hap.scene.capture import (
+    RENDERERS,
+    CaptureConfig,
+    capture_images,
+    contact_sheet,
+    plan_view,
+    render_all,
+)
 from scene2hap.scene.snapshot import SceneSnapshot
 
 PLAN = "plan.png"
@@ -49,6 +56,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Show a folder as a bundle, and any other path as a scene."""
+    if arguments.pictures:
+        require_pictures(Path(arguments.pictures))
     if os.path.isdir(arguments.scene):
         reject_unused(
             arguments, SCENE_ARGUMENTS, f"{quoted(arguments.scene)} is a bundle. Bake its scene file again with it."
@@ -71,15 +80,23 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     return outcome
 
 
-def write_pictures(scene: SceneSnapshot, folder: Path, console: Console) -> list[str]:
-    """Write a contact sheet per object and a plan of the scene as PNG files. Returns their paths.
+def require_pictures(folder: Path) -> None:
+    """Check before any work that pictures can be rendered, and written.
 
     Raises: MissingExtra: the renderer is not installed; SceneError: the folder cannot be written.
     """
     try:
-        require_place(folder / PLAN)  # before the pictures are rendered, which takes long
+        require_place(folder / PLAN)
     except OSError as cause:
         raise SceneError(unwritable(folder, cause)) from cause
+    RENDERERS.load(CaptureConfig().renderer)
+
+
+def write_pictures(scene: SceneSnapshot, folder: Path, console: Console) -> list[str]:
+    """Write a contact sheet per object and a plan of the scene as PNG files. Returns their paths.
+
+    Raises: SceneError: the folder cannot be written.
+    """
     pictured = capture_images(scene)
     written: list[str] = []
 

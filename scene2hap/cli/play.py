@@ -11,7 +11,6 @@ import argparse
 import shutil
 import sys
 import time
-from collections.abc import Callable, Sequence
 from typing import Any
 
 from rich.live import Live
@@ -22,15 +21,14 @@ from scene2hap.cli.console import Console
 from scene2hap.cli.given_spec import given_spec
 from scene2hap.cli.keys import DOWN, LEFT, RIGHT, UP, keys
 from scene2hap.cli.plan import Plan
-from scene2hap.cli.shared_options import session_config
+from scene2hap.cli.shared_options import add_session_arguments, session_config
+from scene2hap.cli.sink_output import UPDATE_S, SinkOutput, silence
 from scene2hap.devices import SINKS
-from scene2hap.devices.protocol import ActuatorSink, SinkEvent, has_clock
 from scene2hap.errors import ConfigError
 from scene2hap.session import HapticFrame, HapticSession, Touch
 from scene2hap.session.bundle_watch import BundleWatch
 
 HAND = "right"
-UPDATE_S = 0.02
 _STEP_DB = 3.0
 _METER = 30
 _LEAST = 8
@@ -45,8 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--solo", action="append", default=[], metavar="ID", help="play this source and no others; may be repeated"
     )
-    parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
-    parser.add_argument("--profile", metavar="FILE", help="levels and limits of a person, see docs/profiles.md")
+    add_session_arguments(parser)
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
@@ -75,51 +72,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             screen.update(player.view(frame, output.problem, watch.problem))
             time.sleep(UPDATE_S)
     if not output.has_played:
-        reason = (output.problem or "the actuator did not start.").removesuffix(" Trying again.")
-        console.warn(f"nothing was played: {reason} Connect the actuator, or give another --sink.")
+        console.warn(f"nothing was played: {output.why_nothing_played} Connect the actuator, or give another --sink.")
     return {"bundle": arguments.bundle, "ended_on": player.on, "played": output.has_played}
-
-
-def silence(session: HapticSession, muted: Sequence[str], solo: Sequence[str]) -> None:
-    """Mute the sources in `muted`. If `solo` names any sources, play these and mute the others. The rest stays.
-
-    Raises: UnknownObject: an id is not a source; then nothing is muted.
-    """
-    for source_id in (*muted, *solo):
-        session.set_source(source_id)
-    for source_id in session.source_ids:
-        if source_id in muted or (solo and source_id not in solo):
-            session.set_source(source_id, mute=True)
-        elif solo:
-            session.set_source(source_id, mute=False)
-
-
-class SinkOutput:
-    """Output of the mix. `problem` is a message about the sink for the user, "" for none."""
-
-    def __init__(self, sink: object) -> None:
-        if not isinstance(sink, ActuatorSink):
-            raise ConfigError(f"--sink is {sink!r}; it must be a kind of sink, or JSON with one.")
-        self.sink: ActuatorSink = sink
-        self.problem: str = ""
-        self.has_played: bool = not has_clock(sink)
-        self._pull: Callable[[int], object] | None = None if has_clock(sink) else getattr(sink, "pull", None)
-        self._taken_s = time.monotonic()
-        if getattr(sink, "on_event", self) is None:
-            sink.on_event = self.note  # type: ignore[attr-defined]  # looked up by name, see ActuatorSink
-
-    def note(self, event: SinkEvent) -> None:
-        """Process an event of a sink, in the sink's own thread."""
-        is_well = event.kind in ("connected", "resumed")
-        self.has_played |= is_well
-        self.problem = "" if is_well else event.message
-
-    def take(self, sample_rate_hz: int) -> None:
-        """Pull the samples that are due from a sink without a clock, so that a recording is as long as the session."""
-        n_frames = int((time.monotonic() - self._taken_s) * sample_rate_hz)
-        self._taken_s += n_frames / sample_rate_hz
-        if self._pull is not None:
-            self._pull(n_frames)
 
 
 class Player:

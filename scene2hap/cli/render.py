@@ -13,7 +13,7 @@ import numpy as np
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
-from scene2hap.cli.shared_options import session_config
+from scene2hap.cli.shared_options import add_session_arguments, session_config
 from scene2hap.devices.wav import WavSink
 from scene2hap.session import HapticSession, SessionConfig, UserProfile
 from scene2hap.session.touch_track import TouchTrack
@@ -27,8 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", metavar="WAV", required=True, help="file to write")
     parser.add_argument("--propagation", metavar="KIND", help="exponential_plate (default), no_propagation, ...")
     parser.add_argument("--update-rate-hz", metavar="HZ", type=float, default=100.0, help="updates per second (100)")
-    parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
-    parser.add_argument("--profile", metavar="FILE", help="levels and limits of a person, see docs/profiles.md")
+    add_session_arguments(parser)
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:

@@ -20,8 +20,8 @@ from typing import Any
 
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
-from scene2hap.cli.bake import SCENE_ARGUMENTS, add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
+from scene2hap.cli.scene_options import SCENE_ARGUMENTS, add_scene_arguments, read_scene
 from scene2hap.cli.shared_options import reject_unused
 from scene2hap.errors import BundleError, ConfigError
 from scene2hap.haptics import SourceState

@@ -55,6 +55,12 @@ def _given(**settings: object) -> dict[str, Any]:
     return {name: value for name, value in settings.items() if value is not None}
 
 
+def add_session_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of a session: the file of settings, and the profile of the person who feels it."""
+    parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
+    parser.add_argument("--profile", metavar="FILE", help="levels and limits of a person, see docs/profiles.md")
+
+
 def reject_unused(arguments: argparse.Namespace, names: Iterable[str], needs: str) -> None:
     """Raise a ConfigError if one of these arguments, whose default is None, was given: it would have no effect."""
     given = [f"--{name.replace('_', '-')}" for name in names if getattr(arguments, name) is not None]

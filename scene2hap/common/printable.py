@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
 
 # Control characters (including C1 escapes, which can clear a terminal or set its title), line and paragraph separators,
@@ -10,6 +11,12 @@ from collections.abc import Iterable, Iterator, Sequence
 _UNSAFE = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
 UNSAFE_BUT_LINES = re.compile(_UNSAFE.pattern.replace("\x00-\x1f", "\x00-\x08\x0b-\x1f"))
 _SURROGATES = re.compile("[\ud800-\udfff]")
+
+_UNDIVIDED = str.maketrans(
+    {"ß": "ss", "æ": "ae", "Æ": "AE", "œ": "oe", "Œ": "OE"}
+    | {"ł": "l", "Ł": "L", "ø": "o", "Ø": "O", "đ": "d", "Đ": "D"}
+)
+"""Letters that Unicode does not divide into a Latin letter and an accent."""
 
 _WIDEST = 60
 """Most columns to which a cell is padded, so that one very long name does not widen all rows."""
@@ -25,6 +32,12 @@ def quoted(path: object) -> str:
     """Return a path in quotes, for a message. `repr` would double each backslash of a path of Windows."""
     text = printable(str(path))
     return f'"{text}"' if "'" in text else f"'{text}'"
+
+
+def without_accents(text: str) -> str:
+    """Return a text with Latin letters in place of accented ones: "Kuhlschrank" for "Kühlschrank"."""
+    letters = unicodedata.normalize("NFKD", text.translate(_UNDIVIDED))
+    return "".join(letter for letter in letters if not unicodedata.combining(letter))
 
 
 def aligned(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:

@@ -200,6 +200,8 @@ async def exchange(
                 ) as response,
             ):
                 content = await _body(response, url, limits.max_bytes)
+    except BackendUnavailable as cause:
+        raise _without_frames(cause, scrub)  # noqa: B904  # they hold a part of the body, which may echo the key
     except (TimeoutError, httpx.TimeoutException) as cause:
         raise BackendUnavailable(
             f"{url} did not answer within {limits.timeout_s:g} s. Try later, raise timeout_s, or lower the "

@@ -9,9 +9,10 @@ import numpy as np
 from scene2hap.audio.threshold import FREQUENCY_WEBER
 from scene2hap.clips.haptic_clip import RANGE_HZ, Curve, HapticClip, Transient
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ConfigError
-from scene2hap.export.envelope import FLOOR_DB, SMOOTHED_S, Envelope, Pulse, Signal, decibels
+from scene2hap.export.envelope import FLOOR_DB, SMOOTHED_S, Envelope, Pulse, decibels
 from scene2hap.export.fidelity import fidelity
 from scene2hap.export.simplify import simplified
 from scene2hap.export.track import Channel
@@ -90,10 +91,10 @@ def _clip(envelope: Envelope, settings: CurveSettings, power: float, *, with_pul
     kept = [int(np.argmin(np.abs(times - pulse.start_s))) for pulse in pulses]
     transients = tuple(_transient(times[i], pulse, settings) for i, pulse in zip(kept, pulses, strict=True))
 
-    def level(roots: Signal) -> Signal:
+    def level(roots: Floats) -> Floats:
         return decibels(roots**power, peak)
 
-    def pitch(roots: Signal) -> Signal:
+    def pitch(roots: Floats) -> Floats:
         return np.asarray(np.log(low + (high - low) * roots**power) / np.log1p(FREQUENCY_WEBER))
 
     amplitude[(decibels(amplitude, peak) <= FLOOR_DB) | (amplitude < _SILENT)] = 0.0
@@ -115,5 +116,5 @@ def _transient(time_s: float, pulse: Pulse, settings: CurveSettings) -> Transien
     return Transient(round(float(time_s), 6), min(round(pulse.amplitude, 6), 1.0), round(pitch, 6))
 
 
-def _rounded(values: Signal) -> Signal:
+def _rounded(values: Floats) -> Floats:
     return np.round(values, 6)

@@ -1,6 +1,6 @@
 """Analysis of a signal: amplitude, frequency and transients over time.
 
-Amplitude is the magnitude of the analytic signal (Hilbert transform; Oppenheim and Schafer, Discrete-Time Signal
+Amplitude is the magnitude of the analytic signal (Hilbert transform; Oppenheim and Schafer, Discrete-Time Floats
 Processing, ch. 12), with its power smoothed over `SMOOTHED_S`: that of a sine wave of equal power. Frequency is a ridge
 of the short-time spectrum (`ridge`). Transients are pulses that exceed the surrounding amplitude by `PROMINENCE_DB` and
 end within `LONGEST_PULSE_S`. A train of pulses closer than `APART_S` is roughness, and stays in the amplitude.
@@ -12,12 +12,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from scene2hap.audio.spectra.windows import hann
+from scene2hap.common.arrays import Floats
 from scene2hap.export.frequency_ridge import ridge_hz
-
-Signal = NDArray[np.float64]
 
 STEP_S = 0.005
 """Time between two values of an envelope [s]."""
@@ -52,9 +50,9 @@ class Envelope:
     Times are `STEP_S` apart, from 0 to the end. A loop has equal values at both ends.
     """
 
-    times_s: Signal
-    amplitude: Signal
-    frequency_hz: Signal
+    times_s: Floats
+    amplitude: Floats
+    frequency_hz: Floats
     pulses: tuple[Pulse, ...] = ()
     is_loop: bool = False
     smoothed_s: float = SMOOTHED_S
@@ -64,13 +62,13 @@ class Envelope:
         """Length [s]."""
         return float(self.times_s[-1])
 
-    def smoothed_over(self, smoothed_s: float, samples: Signal, sample_rate_hz: float) -> Envelope:
+    def smoothed_over(self, smoothed_s: float, samples: Floats, sample_rate_hz: float) -> Envelope:
         """Return the envelope of the same signal (n_samples,), with its power smoothed over another time [s]."""
         amplitude, times = amplitude_of(samples, sample_rate_hz, is_loop=self.is_loop, smoothed_s=smoothed_s)
         pulses = _pulses(times, amplitude, self.frequency_hz)
         return replace(self, amplitude=amplitude, pulses=pulses, smoothed_s=smoothed_s)
 
-    def sharpened(self) -> Signal:
+    def sharpened(self) -> Floats:
         """Return the amplitude (n,) that gives this envelope when it is played and analysed again.
 
         The analysis smooths the signal again, so some steps of Richardson (1972) and Lucy (1974) undo that. This
@@ -79,7 +77,7 @@ class Envelope:
         window = hann(2 * round(self.smoothed_s / STEP_S) + 1)
         half = len(window) // 2
 
-        def smooth(values: Signal) -> Signal:
+        def smooth(values: Floats) -> Floats:
             # The two ends of a loop are one instant.
             padded = np.pad(values[:-1], (half, half + 1), mode="wrap") if self.is_loop else np.pad(values, half)
             return np.asarray(scipy.signal.convolve(padded, window, mode="valid", method="direct"))
@@ -92,7 +90,7 @@ class Envelope:
             found *= np.clip(power / (smooth(found) / inside), 0.1, 10.0)
         return np.sqrt(found)
 
-    def without_pulses(self) -> Signal:
+    def without_pulses(self) -> Floats:
         """Return `sharpened` with each pulse replaced by a straight line from before it to after it."""
         smooth = self.sharpened()
         for pulse in self.pulses:
@@ -104,7 +102,7 @@ class Envelope:
         return smooth
 
 
-def analyse(samples: Signal, sample_rate_hz: float, *, is_loop: bool) -> Envelope:
+def analyse(samples: Floats, sample_rate_hz: float, *, is_loop: bool) -> Envelope:
     """Return the envelope of a signal (n_samples,). A loop is analysed as a periodic signal."""
     amplitude, times = amplitude_of(samples, sample_rate_hz, is_loop=is_loop)
     frequency = ridge_hz(samples, sample_rate_hz, times, is_loop=is_loop)
@@ -112,8 +110,8 @@ def analyse(samples: Signal, sample_rate_hz: float, *, is_loop: bool) -> Envelop
 
 
 def amplitude_of(
-    samples: Signal, sample_rate_hz: float, *, is_loop: bool, smoothed_s: float = SMOOTHED_S
-) -> tuple[Signal, Signal]:
+    samples: Floats, sample_rate_hz: float, *, is_loop: bool, smoothed_s: float = SMOOTHED_S
+) -> tuple[Floats, Floats]:
     """Return the amplitude of a signal (n_samples,), (n,), and its times (n,) [s]."""
     n = len(samples)
     half = max(1, round(smoothed_s * sample_rate_hz))
@@ -131,7 +129,7 @@ def amplitude_of(
     return np.sqrt(np.maximum(np.interp(times, at, power_at), 0.0)), times
 
 
-def _analytic_power(samples: Signal) -> Signal:
+def _analytic_power(samples: Floats) -> Floats:
     """Return the squared magnitude (n,) of the analytic signal of a signal (n,)."""
     n = scipy.fft.next_fast_len(len(samples))
     spectrum = scipy.fft.fft(samples, n)
@@ -140,13 +138,13 @@ def _analytic_power(samples: Signal) -> Signal:
     return np.asarray(np.abs(2.0 * scipy.fft.ifft(spectrum)[: len(samples)]) ** 2)
 
 
-def decibels(amplitude: Signal, peak: float) -> Signal:
+def decibels(amplitude: Floats, peak: float) -> Floats:
     """Return amplitudes relative to a peak [dB], at least `FLOOR_DB`."""
     floor = 10.0 ** (FLOOR_DB / 20.0)
     return np.asarray(20.0 * np.log10(np.maximum(amplitude / max(peak, 1e-12), floor)))
 
 
-def _pulses(times: Signal, amplitude: Signal, frequency_hz: Signal) -> tuple[Pulse, ...]:
+def _pulses(times: Floats, amplitude: Floats, frequency_hz: Floats) -> tuple[Pulse, ...]:
     level = decibels(amplitude, float(amplitude.max()))
     widest = LONGEST_PULSE_S / STEP_S
     tops, found_at = scipy.signal.find_peaks(level, prominence=PROMINENCE_DB, width=(None, widest), rel_height=0.5)

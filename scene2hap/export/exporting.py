@@ -8,9 +8,7 @@ FOLDER/KIND/NAME.*        the files of each track in each format
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -23,28 +21,23 @@ from scene2hap.bundle.sounds import file_stem, file_stems
 from scene2hap.clips.reading import is_haptic_clip, read_haptic_clip
 from scene2hap.clips.synthesis import RATE_HZ, synthesize
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import clear_call
-from scene2hap.common.counted import counted
-from scene2hap.common.files import put_in_place, require_place
-from scene2hap.common.json_texts import parse_json
-from scene2hap.common.warning import warn_of
 from scene2hap.devices.memory import MemorySink
-from scene2hap.errors import ConfigError, ExportError, unwritable
-from scene2hap.export.draft_set import DraftSet
-from scene2hap.export.fidelity import fidelity
-from scene2hap.export.manifest import FORMAT, NAME, Manifest, manifest_of
-from scene2hap.export.protocol import EXPORTS, Exported, Exporter, json_bytes
-from scene2hap.export.report import ExportReport, FileReport
-from scene2hap.export.track import Channel, Signal, Track
+from scene2hap.errors import ConfigError, ExportError
+from scene2hap.export.export_folder import REPORT, Progress, checked_folder, write_tracks
+from scene2hap.export.manifest import NAME, manifest_of
+from scene2hap.export.protocol import EXPORTS, Exporter, json_bytes
+from scene2hap.export.report import ExportReport
+from scene2hap.export.track import Channel, Track
 from scene2hap.session import HapticSession, SessionConfig
 from scene2hap.session.touch_track import TouchTrack
 from scene2hap.session.track_player import play_track
 
-ALL, REPORT = "all", "report.json"
+ALL = "all"
 _BLOCK_S = 0.05
 """Length of the blocks whose means are compared, to find an offset [s]: one cycle at 20 Hz."""
 _CHANNEL_NAMES = {1: [""], 2: ["left", "right"]}
-Progress = Callable[[str, str, int, int], None]
 Kinds = str | Mapping[str, Any] | Exporter | Sequence[str | Mapping[str, Any] | Exporter]
 
 
@@ -66,12 +59,12 @@ def export_bundle(
         step, number done and total number.
     Returns: the written files, with the error of each.
     Raises: ConfigError: an unknown kind or setting; SessionError: touches that cannot be played; ExportError: the
-    folder cannot be written, or holds a manifest.json or report.json of another program. No file is replaced before all
-    are written; the manifest is replaced last. Then files of these kinds are removed that an earlier manifest of this
-    scene lists for a source, and the new one does not.
+    folder cannot be written, is a bundle, or holds a manifest.json or report.json of another program. No file is
+    replaced before all are written; the manifest is replaced last. Then files of these kinds are removed that an
+    earlier manifest of this scene lists for a source, and the new one does not.
     Warns: SceneWarning: files of other kinds or of another scene stay, and the new manifest does not list them.
     """
-    exporters, folder = _exporters(to), _place(folder, NAME, REPORT)
+    exporters, folder = _exporters(to), checked_folder(folder, NAME, REPORT)
     if not isinstance(bundle, HapticBundle):
         raise ExportError(
             f"bundle is {checks.described(bundle)}; it must be a HapticBundle, as HapticBundle.load(folder) reads."
@@ -96,7 +89,7 @@ def export_bundle(
         found = manifest_of(bundle, report, names, tours, settings.propagation)
         return json_bytes(found.model_dump(mode="json"))
 
-    return _write(list(tracks.values()), exporters, folder, manifest, progress)
+    return write_tracks(list(tracks.values()), exporters, folder, manifest, progress)
 
 
 @clear_call
@@ -112,7 +105,7 @@ def export_clip(
     Raises: AudioError, ClipError: the file cannot be read; and as `export_bundle`.
     """
     path = checks.path("path", path, error=ExportError)
-    exporters, folder = _exporters(to), _place(folder, REPORT)
+    exporters, folder = _exporters(to), checked_folder(folder, REPORT)
     if is_haptic_clip(path):
         clip = read_haptic_clip(path)
         channels = {"": Channel(np.clip(synthesize(clip), -1.0, 1.0), RATE_HZ, clip=clip)}
@@ -124,10 +117,10 @@ def export_clip(
         is_loop = marked_loop(path, len(samples), rate) == (0, len(samples))
         channels = {name: Channel(one, rate, is_loop) for name, one in zip(names, samples.T, strict=True)}
     track = Track(file_stem(path.stem), channels)
-    return _write([track], exporters, folder, None, progress)
+    return write_tracks([track], exporters, folder, None, progress)
 
 
-def _without_offset(samples: Signal, rate_hz: float) -> Signal:
+def _without_offset(samples: Floats, rate_hz: float) -> Floats:
     """Subtract the constant offset of each channel (n, n_channels), such as that of a cheap recorder.
 
     No actuator plays it, and an envelope would show it as vibration. It must hold throughout the file: in a file of
@@ -138,35 +131,6 @@ def _without_offset(samples: Signal, rate_hz: float) -> Signal:
     offset = np.median(blocks, axis=0)
     holds = np.percentile(blocks * np.sign(offset), 5, axis=0) >= np.abs(offset) / 2
     return np.where(holds, samples - offset, samples)
-
-
-def _place(folder: str | os.PathLike[str], *names: str) -> Path:
-    """Return the folder as a path.
-
-    Raises: ExportError: it cannot be written, or one of these names in it is a file of another program, such as the
-    manifest of a web page or the report of `bake-many`. Both are found before long work.
-    """
-    place = checks.path("folder", folder, error=ExportError)
-    try:
-        require_place(place / NAME)
-        for name in names:
-            if (place / name).is_file() and not _is_of_an_export((place / name).read_bytes()):
-                raise ExportError(
-                    f"{place / name} was not written by an export of scene2hap, which would replace it. Export into a "
-                    "folder of its own, or move that file away."
-                )
-    except OSError as cause:
-        raise ExportError(unwritable(place, cause)) from cause
-    return place
-
-
-def _is_of_an_export(content: bytes) -> bool:
-    """Whether a JSON text is a manifest or a report of an export, of this or of another version."""
-    try:
-        found = parse_json(content)
-    except ValueError:
-        return False
-    return isinstance(found, dict) and (found.get("format") == FORMAT or {"folder", "files"} <= found.keys())
 
 
 def _exporters(to: Kinds) -> dict[str, Exporter]:
@@ -205,102 +169,3 @@ def _tour(
         # Leaving the session fades out. The tour ends before that.
         samples = sink.samples[: round(track.duration_s * rate)].astype(np.float64)
     return Track(name, {hand: Channel(samples[:, i], rate) for i, hand in enumerate(hands)})
-
-
-def _write(
-    tracks: Sequence[Track],
-    exporters: Mapping[str, Exporter],
-    folder: Path,
-    manifest: Callable[[ExportReport], bytes] | None,
-    progress: Progress | None,
-) -> ExportReport:
-    rows: list[FileReport] = []
-    total, done = len(tracks) * len(exporters), 0
-    with DraftSet() as drafts:
-        for track in tracks:
-            for kind, exporter in exporters.items():
-                made = exporter.export(track)
-                for name, content in made.files.items():
-                    _draft(drafts, folder / kind, name, content)
-                rows += _rows(kind, track, made)
-                done += 1
-                if progress is not None:
-                    progress("exporting", f"{track.name} to {kind}", done, total)
-        report = ExportReport(str(folder), tuple(rows))
-        before = _files_of_sources(folder) if manifest is not None else None
-        _draft(drafts, folder, REPORT, json_bytes(report.to_data()))
-        _draft(drafts, folder, "report.txt", f"{report}\n".encode())
-        if manifest is not None:
-            _draft(drafts, folder, NAME, manifest(report))
-        for draft, path in drafts.drafts:
-            with _writing(path):
-                put_in_place(draft, path)
-    if manifest is not None:
-        now = _files_of_sources(folder)
-        if before is not None and now is not None and before[0] == now[0]:
-            gone = sorted(name for name in before[1] - {*report.files} if name.partition("/")[0] in exporters)
-            report = replace(report, removed=tuple(name for name in gone if _remove(folder, name)))
-        if before is not None:
-            _warn_of_unlisted(folder, before[0], before[1] - {*report.files, *report.removed})
-    return report
-
-
-def _files_of_sources(folder: Path) -> tuple[str, set[str]] | None:
-    """Return the scene and the files of its sources in a folder's manifest, None without one that can be read."""
-    try:
-        found = Manifest.model_validate_json((folder / NAME).read_bytes())
-    except (OSError, ValueError):
-        return None
-    states = [state for source in found.sources for state in source.states]
-    return found.scene, {name for state in states for entry in state.files for name in entry.files}
-
-
-def _warn_of_unlisted(folder: Path, scene: str, names: set[str]) -> None:
-    """Warn of files of an earlier export that stay, but that the new manifest does not list. Warns: SceneWarning."""
-    left = sorted(name for name in names if (folder / name).is_file())
-    if left:
-        kinds = ", ".join(dict.fromkeys(name.partition("/")[0] for name in left))
-        warn_of(
-            f"{folder / NAME} no longer lists {counted(len(left), 'file')} of an earlier export of {scene!r}, which "
-            f"{'stays' if len(left) == 1 else 'stay'} in the folder: {kinds}. Export all kinds of a scene in one call, "
-            "and each scene into a folder of its own."
-        )
-
-
-def _remove(folder: Path, name: str) -> bool:
-    """Remove an exported file, KIND/NAME. Returns False if it is not there, or elsewhere."""
-    path = folder / name
-    if name.count("/") != 1 or "\\" in name or ".." in path.parts or path.is_symlink():
-        return False
-    try:
-        path.unlink()
-    except OSError:
-        return False
-    return True
-
-
-def _rows(kind: str, track: Track, made: Exported) -> list[FileReport]:
-    rows = []
-    for name, channel in track.channels.items():
-        mine = [one for one in made.files if one.startswith(f"{track.name}.{name}.")] if name else list(made.files)
-        files = tuple(f"{kind}/{one}" for one in mine or made.files)
-        played = made.played.get(name)
-        error = fidelity(channel, played) if played is not None else None
-        rows.append(FileReport(kind, track.name, name, files, channel.duration_s, error))
-    return rows
-
-
-def _draft(drafts: DraftSet, folder: Path, name: str, content: bytes) -> None:
-    path = folder / name
-    if path.parent != folder or not name:
-        raise ExportError(f"an exporter names a file {name!r}; it must be a name without a folder.")
-    with _writing(path):
-        drafts.write(path, content)
-
-
-@contextmanager
-def _writing(path: Path) -> Iterator[None]:
-    try:
-        yield
-    except OSError as cause:
-        raise ExportError(unwritable(path, cause)) from cause

@@ -9,7 +9,8 @@ import numpy as np
 from scene2hap.audio.threshold import FREQUENCY_WEBER
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.clips.synthesis import synthesize
-from scene2hap.export.envelope import FLOOR_DB, Signal, amplitude_of, decibels
+from scene2hap.common.arrays import Floats
+from scene2hap.export.envelope import FLOOR_DB, amplitude_of, decibels
 from scene2hap.export.frequency_ridge import ridge_hz
 from scene2hap.export.track import ANALYSIS_HZ, Channel
 
@@ -71,12 +72,12 @@ def fidelity(channel: Channel, played: Played) -> Fidelity:
     return replace(found, amplitude_points=n_amplitude, frequency_points=n_frequency, transients=len(played.transients))
 
 
-def played_samples(played: Played) -> Signal:
+def played_samples(played: Played) -> Floats:
     """Return the played signal, at `ANALYSIS_HZ`."""
     return synthesize(played, ANALYSIS_HZ) if isinstance(played, HapticClip) else played.at_rate(ANALYSIS_HZ)
 
 
-def _frequency_jnds(channel: Channel, played: Played, samples: Signal) -> Signal | None:
+def _frequency_jnds(channel: Channel, played: Played, samples: Floats) -> Floats | None:
     times, own = channel.envelope.times_s, channel.envelope.frequency_hz
     if isinstance(played, Channel):
         other = ridge_hz(samples, ANALYSIS_HZ, times, is_loop=channel.is_loop)

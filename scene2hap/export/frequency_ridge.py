@@ -12,8 +12,7 @@ import scipy
 from numpy.typing import NDArray
 
 from scene2hap.audio.spectra.windows import hann
-
-Signal = NDArray[np.float64]
+from scene2hap.common.arrays import Floats
 
 WINDOW_S = 0.1
 """Length of the window [s]: it resolves frequencies from 20 Hz up, in steps that touch hardly distinguishes."""
@@ -25,14 +24,14 @@ JUMP_DB = 60.0
 _FLOOR_DB = -60.0
 
 
-def ridge_hz(samples: Signal, sample_rate_hz: float, times_s: Signal, *, is_loop: bool) -> Signal:
+def ridge_hz(samples: Floats, sample_rate_hz: float, times_s: Floats, *, is_loop: bool) -> Floats:
     """Return the frequency (n,) [Hz] of a signal (n_samples,) at times (n,) [s], within `RANGE_HZ`."""
     starts, levels, grid = _levels(samples, sample_rate_hz, is_loop=is_loop)
     path = _best_path(levels, grid)
     return np.exp(np.interp(times_s, starts, np.log(_refined(levels, grid, path))))
 
 
-def _levels(samples: Signal, sample_rate_hz: float, *, is_loop: bool) -> tuple[Signal, Signal, Signal]:
+def _levels(samples: Floats, sample_rate_hz: float, *, is_loop: bool) -> tuple[Floats, Floats, Floats]:
     """Return times of the windows (m,), their level by frequency (m, k) [dB], and the frequencies (k,) [Hz]."""
     half = round(WINDOW_S * sample_rate_hz / 2)
     padded = np.pad(samples, half, mode="wrap" if is_loop else "constant")
@@ -53,7 +52,7 @@ def _levels(samples: Signal, sample_rate_hz: float, *, is_loop: bool) -> tuple[S
     return firsts / sample_rate_hz, levels, grid
 
 
-def _best_path(levels: Signal, grid: Signal) -> NDArray[np.intp]:
+def _best_path(levels: Floats, grid: Floats) -> NDArray[np.intp]:
     k = np.arange(len(grid))
     cost = JUMP_DB / PER_OCTAVE * np.abs(k[:, None] - k[None, :])
     total = levels[0].copy()
@@ -70,7 +69,7 @@ def _best_path(levels: Signal, grid: Signal) -> NDArray[np.intp]:
     return path
 
 
-def _refined(levels: Signal, grid: Signal, path: NDArray[np.intp]) -> Signal:
+def _refined(levels: Floats, grid: Floats, path: NDArray[np.intp]) -> Floats:
     """Return frequencies between those of the grid, by a parabola through three levels."""
     inner = np.clip(path, 1, len(grid) - 2)
     rows = np.arange(len(path))

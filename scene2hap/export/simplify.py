@@ -14,13 +14,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-Signal = NDArray[np.float64]
+from scene2hap.common.arrays import Floats
 
 
 def simplified(
-    times_s: Signal,
-    values: Signal,
-    measure: Callable[[Signal], Signal],
+    times_s: Floats,
+    values: Floats,
+    measure: Callable[[Floats], Floats],
     tolerance: float,
     *,
     per_second: float,

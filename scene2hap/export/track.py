@@ -8,15 +8,13 @@ from functools import cached_property
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.common import checks
+from scene2hap.common.arrays import Floats
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ExportError
 from scene2hap.export.envelope import Envelope, analyse
-
-Signal = NDArray[np.float64]
 
 ANALYSIS_HZ = 8000
 """Rate at which signals are analysed [Hz]; vibration above 1 kHz is not felt."""
@@ -32,7 +30,7 @@ class Channel:
     Raises: ExportError: no samples, one that is not finite or beyond 1, or more than `MAX_TRACK_S`.
     """
 
-    samples: Signal
+    samples: Floats
     sample_rate_hz: float
     is_loop: bool = False
     clip: HapticClip | None = None
@@ -58,7 +56,7 @@ class Channel:
         """Length [s]."""
         return len(self.samples) / self.sample_rate_hz
 
-    def at_rate(self, sample_rate_hz: float) -> Signal:
+    def at_rate(self, sample_rate_hz: float) -> Floats:
         """Return the signal at another rate, limited to [-1, 1].
 
         A loop is resampled as a periodic signal, to the nearest whole number of samples, so that it stays seamless.
@@ -73,7 +71,7 @@ class Channel:
             return self
         return Channel(self.at_rate(sample_rate_hz), sample_rate_hz, self.is_loop)
 
-    def _at_rate(self, sample_rate_hz: float) -> Signal:
+    def _at_rate(self, sample_rate_hz: float) -> Floats:
         if sample_rate_hz == self.sample_rate_hz:
             return self.samples
         n = max(1, round(self.duration_s * sample_rate_hz))
@@ -90,7 +88,7 @@ class Channel:
         return np.clip(np.asarray(resampled, dtype=np.float64), -1.0, 1.0)
 
     @cached_property
-    def _resampled(self) -> dict[float, Signal]:
+    def _resampled(self) -> dict[float, Floats]:
         return {}
 
     @cached_property
@@ -113,7 +111,7 @@ class Track:
     name: str
     channels: Mapping[str, Channel] = field(default_factory=dict)
 
-    def frames(self, sample_rate_hz: float) -> Signal:
+    def frames(self, sample_rate_hz: float) -> Floats:
         """Return all channels at another rate, (n_samples, n_channels); shorter ones end in silence."""
         channels = [one.at_rate(sample_rate_hz) for one in self.channels.values()]
         n = max(map(len, channels))

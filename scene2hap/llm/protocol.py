@@ -56,6 +56,10 @@ class LLMReply:
     service_tier: str = ""
 
 
+class BackendWarning(UserWarning):
+    """A model or its server deviated from the request; the answer may be worse."""
+
+
 class AnswerPending(BackendUnavailable):
     """The answer comes later: the question is in a batch, or will be in the next one."""
 

@@ -12,9 +12,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.common.arrays import Floats
 from scene2hap.render import limiter
-
-Signal = NDArray[np.float64]
 
 FULL_SCALE_S = 0.05
 """Time in which a limit changes by full scale, so that a change of profile does not click [s]."""
@@ -42,7 +41,7 @@ class Gate:
         """True if the gate is closed."""
         return self._place == 0
 
-    def factors(self, n_frames: int, is_opening: bool) -> Signal | float:
+    def factors(self, n_frames: int, is_opening: bool) -> Floats | float:
         """Return factors of the next frames (n_frames, 1), while the gate opens or closes."""
         target = self._top if is_opening else 0
         if self._place == target:
@@ -83,17 +82,17 @@ class PeakGuard:
         self._frame = 0
         self.n_limited: int = 0
 
-    def rearrange(self, former: Sequence[int | None], limit: Signal) -> None:
+    def rearrange(self, former: Sequence[int | None], limit: Floats) -> None:
         """Change the channels: each continues a former one, by index, or is new (None), with its limit at once."""
 
-        def kept(state: Signal, new: Signal) -> Signal:
+        def kept(state: Floats, new: Floats) -> Floats:
             return np.array([new[i] if one is None else state[one] for i, one in enumerate(former)])
 
         nothing = np.zeros(len(former))
         self._held, self._applied = kept(self._held, nothing), kept(self._applied, nothing)
         self._now, self.limit = kept(self._now, limit), limit
 
-    def pass_through(self, x: Signal) -> Signal:
+    def pass_through(self, x: Floats) -> Floats:
         """Return the signal within the limit."""
         parts, begin = [], 0
         while begin < len(x):
@@ -102,7 +101,7 @@ class PeakGuard:
             begin = end
         return np.concatenate(parts) if parts else x
 
-    def _within_a_cell(self, x: Signal) -> Signal:
+    def _within_a_cell(self, x: Floats) -> Floats:
         level, limit = np.abs(x), self._limits(len(x))
         threshold = limit * np.maximum(limiter.THRESHOLD, limit)
         is_over = level > threshold
@@ -127,18 +126,18 @@ class PeakGuard:
                 state[state < limiter.NOTHING] = 0.0
         return y
 
-    def _limits(self, n_frames: int) -> Signal:
+    def _limits(self, n_frames: int) -> Floats:
         """Return the limits in force (n_frames or 1, n_channels) and advance them."""
         left = self.limit - self._now
         if not left.any():
             return self._now[None]
         farthest = self._step * np.arange(1, n_frames + 1)[:, None]
-        limits: Signal = self._now + np.clip(left, -farthest, farthest)
+        limits: Floats = self._now + np.clip(left, -farthest, farthest)
         self._now = limits[-1]
         return limits
 
 
-def _bent(z: Signal, threshold: Signal, limit: Signal) -> Signal:
+def _bent(z: Floats, threshold: Floats, limit: Floats) -> Floats:
     """Return the signal, bent beyond a threshold so that it stays within the limit."""
     rest = np.maximum(limit - threshold, np.finfo(np.float64).tiny)
     excess = np.maximum(np.abs(z) - threshold, 0.0)
@@ -173,7 +172,7 @@ class PowerGuard:
         self._frame = 0
         self.n_limited: int = 0
 
-    def pass_through(self, x: Signal) -> Signal:
+    def pass_through(self, x: Floats) -> Floats:
         """Return the signal within the budget."""
         if not len(x):
             return x
@@ -188,7 +187,7 @@ class PowerGuard:
         self.n_limited += int(((factors < 1.0) & (x != 0.0)).sum())
         return np.asarray(x * factors)
 
-    def _advance(self, cells: Signal, begin: int, n_full: int) -> Signal:
+    def _advance(self, cells: Floats, begin: int, n_full: int) -> Floats:
         """Return gain at the start of each cell and its change within (n_cells, 2, n_channels). Advances the thermal
         model."""
         squares = cells**2
@@ -224,7 +223,7 @@ class SlewGuard:
         self._last = np.zeros(n_channels)
         self.n_limited: int = 0
 
-    def pass_through(self, x: Signal) -> Signal:
+    def pass_through(self, x: Floats) -> Floats:
         """Return the signal, or the nearest signal within the slew limit."""
         if not len(x):
             return x
@@ -234,7 +233,7 @@ class SlewGuard:
         self._last = x[-1]
         return x
 
-    def _follow(self, x: Signal, steps: Signal, last: float) -> Signal:
+    def _follow(self, x: Floats, steps: Floats, last: float) -> Floats:
         """Limit one channel frame by frame, from each step that is too large until the output meets the signal."""
         y = x.copy()
         too_large = np.flatnonzero(np.abs(steps) > self._step).tolist()

@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.audio.run_curve import RunCurve
+from scene2hap.common.arrays import Floats
 from scene2hap.render.loop_bank import CELL, Block, LoopBank, StoredLoop, read_between, stored_cell
 
 LEAD_S = 0.03
@@ -41,8 +42,6 @@ _GRID = np.linspace(0.0, 1.0, _STEPS + 1)
 """Shares of the time at which courses are tabulated: 7 ms apart in the longest transition."""
 _PLANNED = 20 * CELL
 """Samples of a transition whose places are computed at once: with up to 500 numbers, see `CELL`."""
-
-Signal = NDArray[np.float64]
 
 
 class Running(NamedTuple):
@@ -62,7 +61,7 @@ class TransitionCurve(NamedTuple):
     spins: bool
     curve: RunCurve | None = None
 
-    def speed(self, x: Signal) -> Signal:
+    def speed(self, x: Floats) -> Floats:
         """Return speeds (n,) [-] at shares x (n,) of the time."""
         recorded = None if self.curve is None else self.curve.speed_at(x)
         if recorded is not None:
@@ -73,7 +72,7 @@ class TransitionCurve(NamedTuple):
             return np.sqrt(self.amplitude(x))
         return x * (2 - x) if self.goes_up else (1 - x) ** 2
 
-    def amplitude(self, x: Signal) -> Signal:
+    def amplitude(self, x: Floats) -> Floats:
         """Return amplitudes (n,) [-] at shares x (n,) of the time."""
         if self.curve is not None:
             return self.curve.amplitude_at(x)
@@ -175,19 +174,19 @@ class Transition:
             own[:] = weight * amplitude
         self._below, self._planned = below.astype(np.intp) + self._begin, begin
 
-    def _knots(self, at: NDArray[np.int_]) -> tuple[NDArray[np.intp], Signal]:
+    def _knots(self, at: NDArray[np.int_]) -> tuple[NDArray[np.intp], Floats]:
         """Return the intervals of the tables in which samples after the lead are, and the parts of them passed."""
         j = np.minimum(np.maximum(at / max(self._step, 1e-9), 0.0), _STEPS)
         k = np.minimum(j.astype(np.intp), _STEPS - 1)
         return k, j - k
 
-    def _places(self, at: NDArray[np.int_], k: NDArray[np.intp], part: Signal) -> Signal:
+    def _places(self, at: NDArray[np.int_], k: NDArray[np.intp], part: Floats) -> Floats:
         """Return the samples of the loop that are played, counted from the beginning of the transition."""
         first = self._speed[k]
         within = part * (first + part / 2 * (self._speed[k + 1] - first)) * self._step
         # The speed is constant before and after the tables.
         before, behind = np.minimum(at, 0) * self._speed[0], np.maximum(at - self._n, 0) * self._speed[-1]
-        place: Signal = self._from + self._played[k] + within + before + behind
+        place: Floats = self._from + self._played[k] + within + before + behind
         if self._shift:
             place += self._shift * (0.5 + 0.5 * np.cos((k + part) * (np.pi / _STEPS)))
         return place
@@ -213,7 +212,7 @@ class Transition:
         return float(shifts[np.argmax(likeness - _NEARER * np.abs(shifts) / farthest)])
 
 
-def _line(values: Signal, k: NDArray[np.intp], part: Signal) -> Signal:
+def _line(values: Floats, k: NDArray[np.intp], part: Floats) -> Floats:
     """Return values between the knots k and k + 1 of a table."""
     first = values[k]
     return first + part * (values[k + 1] - first)

@@ -9,7 +9,7 @@ from collections import Counter
 
 from scene2hap.common.run_coroutine import run_waiting
 from scene2hap.llm import BACKENDS
-from scene2hap.llm.backends.chat import about
+from scene2hap.llm.answers.usable import question_of
 from scene2hap.llm.chain import infer_scene
 from scene2hap.llm.protocol import LLMBackend, LLMReply, LLMRequest
 from scene2hap.llm.validation import find_fault
@@ -72,5 +72,5 @@ class _Watched:
         assert request.facts == facts, f"{by} changed the facts of its request"
         fault = find_fault(request.component, reply.text, request.facts)
         if fault is not None and not fault.is_minor:
-            self.faults.append(f"{about(request)}: {fault.reason}")
+            self.faults.append(f"{question_of(request)}: {fault.reason}")
         return reply

@@ -37,8 +37,8 @@ from scene2hap.baking.many.run import abake_many
 from scene2hap.cli import bake_many as bake_many_command, main
 from scene2hap.common.warning import SceneWarning
 from scene2hap.errors import ConfigError
-from scene2hap.llm.backends.chat import BackendWarning
 from scene2hap.llm.lexicon import LexiconBackend
+from scene2hap.llm.protocol import BackendWarning
 
 N_SCENES = 2
 

@@ -251,7 +251,7 @@ def test_large_batches_are_split(run: Run, server: BatchServer, monkeypatch: pyt
 
 
 def test_invalid_requests_get_an_error_message(run: Run, scenes: list[Path], tmp_path: Path) -> None:
-    with pytest.raises(ConfigError, match="batches need a model of kind 'openai'"):
+    with pytest.raises(ConfigError, match="batches need a model of kind 'openai'.*--llm openai:gpt-4o.*bake-many"):
         submit_batch(scenes, tmp_path / "out", config={"llm": "lexicon"})
     state = run.folder / ".bake-many" / "batch"
     state.mkdir(parents=True)

@@ -13,8 +13,8 @@ import trimesh
 from PIL import Image
 
 from files_of import files_of
-from scene2hap import Box, Pose, SceneObject, SceneSnapshot
-from scene2hap.cli import main
+from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake
+from scene2hap.cli import command_parser, main
 from scene2hap.demo import kitchen_path
 from scene2hap.render.safety import FADE_OUT_S
 
@@ -117,6 +117,24 @@ def test_your_own_sounds_come_first(room: Path, tmp_path: Path) -> None:
     assert loops["microwave"]["on"]["frequency_raw_hz"] == pytest.approx(120, abs=0.05)
     assert loops["microwave"]["on"]["credit"]["author"] == "unknown"
     assert loops["refrigerator"]["on"]["credit"]["author"] == "scene2hap synthesizer"
+
+
+def test_an_edit_while_a_bake_runs_is_kept(room: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A bake with a model takes minutes, and a designer has a second terminal."""
+    folder = tmp_path / "b"
+    assert main(["bake", str(room), "-o", str(folder), "-q"]) == 0
+    baked = []
+
+    def bake_and_be_overtaken(*given: object, **settings: object) -> HapticBundle:
+        baked.append(bake(*given, **settings))
+        if len(baked) == 1:
+            assert main(["edit", str(folder), "gain", "microwave", "-6", "-q"]) == 0
+        return baked[-1]
+
+    monkeypatch.setattr("scene2hap.cli.bake.bake", bake_and_be_overtaken)
+    assert main(["bake", str(room), "-o", str(folder), "-q"]) == 0
+    assert HapticBundle.load(folder).gain_db("microwave") == -6.0
+    assert len(baked) == 2
 
 
 def test_only_a_bake_that_changes_something_keeps_the_bundle_before(tmp_path: Path) -> None:
@@ -292,6 +310,81 @@ def test_an_unknown_option_does_not_blame_a_known_one(
     said = capsys.readouterr().err
     assert told in said
     assert "'-o' is read as an option" not in said
+
+
+@pytest.mark.parametrize(
+    ("words", "which"),
+    [
+        (("bake", "x.glb", "-o", "b.bundle", "--sounds", ""), "--sounds"),
+        (("bake", "x.glb", "-o", "b.bundle", "--assets-root="), "--assets-root"),
+        (("inspect", ""), "SCENE|BUNDLE"),
+        (("export", "b.bundle", "-o", ""), "-o/--output"),
+        (("edit", "b.bundle", "sound", "fan", ""), "FILE"),
+    ],
+)
+def test_an_empty_value_is_an_error(capsys: pytest.CaptureFixture[str], words: tuple[str, ...], which: str) -> None:
+    with pytest.raises(SystemExit):
+        main(words)
+    assert f"argument {which}: its value is empty" in capsys.readouterr().err
+
+
+def test_an_option_that_is_no_json_is_not_shown(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It may hold a key, and the output of a build is kept."""
+    key = "sk-test-0123456789abcdefghij"
+    assert main(["bake", str(room), "-o", "b", "--llm", f'{{"kind": "openai", "api_key": "{key}"']) == 1
+    said = capsys.readouterr().err
+    assert "--llm is no JSON (line 1, column" in said
+    assert key not in said
+
+
+def test_values_that_may_be_empty(room: Path, tmp_path: Path) -> None:
+    """Without a wish, a script passes an empty prompt; --loop-back alone means any input."""
+    assert main(["bake", str(room), "-o", str(tmp_path / "b"), "--prompt", "", "--dry-run", "-q"]) == 0
+    arguments = command_parser().parse_args(["doctor", "--sweep", "soundcard", "--loop-back"])
+    assert arguments.loop_back == ""
+
+
+def test_a_dry_run_counts_given_pictures(
+    room: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """They need no renderer: an engine has made them."""
+    monkeypatch.setattr("scene2hap.cli.bake.capture_images", lambda scene: pytest.fail("pictures are rendered"))
+    Image.new("RGB", (64, 64)).save(tmp_path / "above.png")
+    row = {"kind": "scene", "view": "above", "file": "above.png"}
+    (tmp_path / "pictures.json").write_text(json.dumps([row]))
+    words = ["bake", str(room), "--dry-run", "--llm", "openai:gpt-4o", "--pictures-from", str(tmp_path), "--json"]
+    assert main(words) == 0
+    assert json.loads(capsys.readouterr().out)["images"] == 1
+
+
+def test_pictures_that_cannot_be_made_are_an_error_before_any_table(
+    room: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    taken = tmp_path / "taken"
+    taken.write_text("")
+    assert main(["inspect", str(room), "--pictures", str(taken)]) == 1
+    said = capsys.readouterr()
+    assert (said.out, "taken cannot be written" in said.err) == ("", True)
+    monkeypatch.setitem(sys.modules, "embreex", None)
+    monkeypatch.setitem(sys.modules, "embreex.mesh_construction", None)
+    monkeypatch.delitem(sys.modules, "scene2hap.scene.capture.embree", raising=False)
+    assert main(["inspect", str(room), "--pictures", str(tmp_path / "p")]) == 1
+    said = capsys.readouterr()
+    assert (said.out, "pip install 'scene2hap[pictures]'" in said.err) == ("", True)
+
+
+@pytest.mark.parametrize(
+    ("words", "usage"),
+    [(("bake", "x.glb", "b.bundle"), "scene2hap bake [-h]"), (("edit", "b", "gain", "fan", "-6", "dB"), "gain [-h]")],
+)
+def test_a_word_too_many_shows_the_usage_of_its_command(
+    capsys: pytest.CaptureFixture[str], words: tuple[str, ...], usage: str
+) -> None:
+    with pytest.raises(SystemExit):
+        main(words)
+    said = capsys.readouterr().err
+    assert usage in said
+    assert said.endswith(f"error: unrecognized arguments: {words[-1]}\n")
 
 
 def test_an_option_of_commands_before_the_command_is_explained(capsys: pytest.CaptureFixture[str]) -> None:

@@ -89,7 +89,7 @@ def test_existing_files_are_kept_unless_forced(tmp_path: Path, capsys: pytest.Ca
     ("arguments", "reason"),
     [
         (["--converter", "nope"], "no kind 'nope'"),
-        (["--converter", "{broken"], "which is no JSON"),
+        (["--converter", "{broken"], "--converter is no JSON"),
         (["--actuator", "nope"], "actuator is 'nope'"),
         (["--intensity", "2"], "intensity is 2"),
         (["--workers", "0"], "--workers is 0"),

@@ -16,7 +16,7 @@ import soundfile
 from numpy.typing import NDArray
 from scipy.signal import chirp, correlate
 
-from scene2hap.cli import doctor, main
+from scene2hap.cli import doctor, main, sweep
 from scene2hap.cli.console import Console
 from scene2hap.devices.link import CarryOn, LiveSink
 from scene2hap.devices.protocol import SinkFormat
@@ -110,9 +110,9 @@ def test_the_sweep_visits_one_hand_after_the_other_and_is_quiet(tmp_path: Path) 
     path = tmp_path / "sweep.wav"
     assert main(["doctor", "-q", "--sweep", json.dumps({"kind": "wav", "path": str(path)})]) == 0
     samples, rate = soundfile.read(path)
-    lead, samples = np.split(samples, [round(doctor.PAUSE_S * rate)])
+    lead, samples = np.split(samples, [round(sweep.PAUSE_S * rate)])
     assert not lead.any()
-    turn = round((doctor.SWEEP_S + doctor.PAUSE_S) * rate)
+    turn = round((sweep.SWEEP_S + sweep.PAUSE_S) * rate)
     peaks = np.array([np.abs(samples[i * turn : (i + 1) * turn]).max(axis=0) for i in range(2)])
     assert peaks[0] == pytest.approx([0.1, 0.0], abs=2e-3)
     assert peaks[1] == pytest.approx([0.0, 0.1], abs=2e-3)
@@ -128,10 +128,16 @@ def test_invalid_sink_is_refused(sink: str, sentence: str, capsys: pytest.Captur
     assert sentence in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("words", [("--loop-back",), ("--sweep", "{oops"), ("--hands", "left,left")])
+def test_wrong_words_are_an_error_before_any_table(words: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["doctor", *words]) == 1
+    assert capsys.readouterr().out == ""
+
+
 def test_a_sweep_that_reaches_no_device_is_an_error(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(doctor, "SWEEP_S", 0.1)
+    monkeypatch.setattr(sweep, "SWEEP_S", 0.1)
     sink = json.dumps({"kind": "serial", "port": str(tmp_path / "ttyACM0")})
     assert main(["doctor", "-q", "--sweep", sink]) == 1
     told = " ".join(capsys.readouterr().err.split())
@@ -167,9 +173,9 @@ def test_an_interrupted_sweep_fades_out(monkeypatch: pytest.MonkeyPatch) -> None
         raise KeyboardInterrupt
 
     line = FarLine()
-    monkeypatch.setattr(doctor, "_keep_fed", interrupted)
+    monkeypatch.setattr(sweep, "_keep_fed", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        doctor.sweep(LiveSink(line, "far device"), ("left",), Console(quiet=True))
+        sweep.sweep(LiveSink(line, "far device"), ("left",), Console(quiet=True))
     x = np.concatenate(line.blocks)[:, 0]
     assert np.abs(x[-4800:-960]).max() > 0.05
     assert np.abs(x[-4:]).max() < 1e-3
@@ -190,7 +196,7 @@ def test_loop_back_without_sound_is_reported(
     assert sentence in " ".join(capsys.readouterr().err.split())
 
 
-class Sweeps(doctor._Sweeps):
+class Sweeps(sweep._Sweeps):
     """Sweeps that a test can access, to know when each was requested."""
 
     latest: "Sweeps"
@@ -212,7 +218,7 @@ def _found_s(recorder: Recorder, heard: NDArray[np.float32], channel: int, wave:
 def test_loop_back_latency_equals_that_of_an_independent_recorder(
     server: SoundServer, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(doctor, "_Sweeps", Sweeps)
+    monkeypatch.setattr(sweep, "_Sweeps", Sweeps)
     wave = chirp(np.arange(2 * RATE) / RATE, 40.0, 2.0, 400.0, method="log", phi=-90.0)
     for attempt in range(3):
         recorder = server.record(is_timed=True)
@@ -247,7 +253,7 @@ def test_sweep_that_is_not_recorded_is_reported(
     server: SoundServer, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     subprocess.run(["pactl", "set-source-mute", "hap.monitor", "1"], check=True)
-    monkeypatch.setattr(doctor, "SWEEP_S", 0.5)
+    monkeypatch.setattr(sweep, "SWEEP_S", 0.5)
     assert main(["doctor", "--sweep", "soundcard", "--loop-back", "--hands", "left"]) == 0
     told = " ".join(capsys.readouterr().out.split())
     assert "heard by" in told

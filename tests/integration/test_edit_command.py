@@ -22,7 +22,7 @@ from scene2hap.audio.encoding import encoded
 from scene2hap.bundle.differences import differences
 from scene2hap.cli import main
 from scene2hap.cli.console import Console
-from scene2hap.cli.play import silence
+from scene2hap.cli.sink_output import silence
 from scene2hap.errors import BadAnswer
 from scene2hap.llm.lexicon.backend import LexiconBackend
 from scene2hap.materials import Material
@@ -165,7 +165,7 @@ def test_a_material_that_no_table_has_is_given_by_its_constants(
     assert main(["edit", str(fan), "material", "fan", "my abs"]) == 1
     assert f"a Material of your own: {', '.join(constants)}, loss_factor." in capsys.readouterr().err
     assert main(["edit", str(fan), "material", "fan", json.dumps(constants)[:-1]]) == 1
-    assert "which is no JSON" in capsys.readouterr().err
+    assert "material is no JSON" in capsys.readouterr().err
     own = Material("my abs", 1111.0, 2.2e9, 0.33)
     assert main(["edit", str(fan), "material", "fan", json.dumps(constants)]) == 0
     assert HapticBundle.load(fan).objects["fan"].material == own
@@ -213,8 +213,11 @@ def test_a_comparison_lists_only_what_an_edit_changed(fan: Path, capsys: pytest.
     """An override has values for gain, sound, lock and mute; values that were not set are not listed."""
     folder = fan
     source = next(iter(HapticBundle.load(folder).loops))
-    assert main(["edit", str(folder), "gain", source, "-3", "-q"]) == 0
+    said = outcome(capsys, "edit", str(folder), "gain", source, "-3", "--json")["differences"]
     found = outcome(capsys, "edit", str(folder), "diff", f"{folder}.before", "--json")["differences"]
+    assert isinstance(said, list)
+    assert [[key, what, before, after] for key, what, after, before in said] == found
+    assert outcome(capsys, "edit", str(folder), "gain", source, "-3", "--json")["differences"] == []
     assert found == [[source, "gain", "-3.0 dB", "+0.0 dB"]]
 
 

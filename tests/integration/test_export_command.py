@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -241,6 +242,18 @@ def test_invalid_requests_get_an_error_and_write_nothing(
     assert main(["export", str(sound), "-o", str(out), "--touches", "t.json"]) == 1
     assert "need a bundle" in capsys.readouterr().err
     assert not out.exists()
+
+
+def test_a_bundle_is_no_folder_for_an_export(
+    kitchen_bundle: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = shutil.copytree(kitchen_bundle, tmp_path / "kitchen.bundle")
+    written = files_of(folder)
+    assert main(["export", str(folder), "--to", "wav", "-o", str(folder)]) == 1
+    assert "is a bundle; an export is no part of it" in capsys.readouterr().err
+    with pytest.raises(ExportError, match="is a bundle"):
+        export_clip(next((folder / "sounds").glob("*.tactile.wav")), folder, "wav")
+    assert files_of(folder) == written
 
 
 def test_scenes_without_sources_or_with_one_object_are_exported(tmp_path: Path) -> None:

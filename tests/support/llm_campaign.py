@@ -89,7 +89,7 @@ def run(
         backend = BACKENDS[kind](server, api_key=KEY, timeout_s=fault.timeout_s)
         for pass_number in range(2):
             tape = folder / f"tape{pass_number}.jsonl"
-            inner = standard_stack(backend, folder / "cache", retries=retries, told_retries=retries, sleep=sleep)
+            inner = standard_stack(backend, folder / "cache", retries=retries, rate_limit_retries=retries, sleep=sleep)
             stack = RecordingBackend(inner, tape)
             left = [number for number in range(n) if pass_number == 0 or number in play.valid]
             asyncio.run(_all(stack, fault, left, play, outcome if pass_number == 0 else Outcome(), shown))

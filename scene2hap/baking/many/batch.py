@@ -322,7 +322,8 @@ async def _at_work(given: _Given) -> AsyncIterator[_Work]:
     if not isinstance(model, OpenAIBackend):
         raise ConfigError(
             f"batches need a model of kind 'openai', given by its kind; llm is {type(model).__name__} "
-            f"({dict(identity(config.llm)) or 'no address'}). Use bake_many for all others."
+            f"({dict(identity(config.llm)) or 'no address'}). Name one, as llm='openai:gpt-4o' or --llm openai:gpt-4o. "
+            "For any other model, bake without batches: bake_many(...), or `scene2hap bake-many`."
         )
     folder = checks.path("folder", given.folder, error=ConfigError)
     batches = BatchFolder(folder / WORK / "batch")

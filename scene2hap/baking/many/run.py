@@ -35,7 +35,7 @@ from scene2hap.baking.many.record import REPORT, WORK, read_record, scene_digest
 from scene2hap.baking.many.report import ManyReport, SceneReport
 from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds, take_pictures
 from scene2hap.bundle import HapticBundle
-from scene2hap.bundle.folder import read_overrides
+from scene2hap.bundle.overrides_file import read_overrides
 from scene2hap.bundle.sounds import file_stem
 from scene2hap.common import checks
 from scene2hap.common.calls import clear_call

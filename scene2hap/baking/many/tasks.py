@@ -17,14 +17,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from scene2hap.baking.bundle_before import bundle_before, readable_bundle
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.corrections import bundle_before, overrides_of_scene, readable_bundle
+from scene2hap.baking.corrections import overrides_of_scene
+from scene2hap.baking.loops import N_THREADS
 from scene2hap.baking.many.record import WORK, bundle_digest
 from scene2hap.baking.scene import bake, bake_inferred
-from scene2hap.baking.sound import N_THREADS
 from scene2hap.bundle import BundleWarning, HapticBundle
-from scene2hap.bundle.folder import read_overrides, write_edited
 from scene2hap.bundle.history import step_beside
+from scene2hap.bundle.overrides_file import read_overrides
+from scene2hap.bundle.writing import write_edited
 from scene2hap.common.warning import warn_of
 from scene2hap.haptics import is_unknown
 from scene2hap.llm.chain.report import InferenceReport

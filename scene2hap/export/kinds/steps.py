@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.clips.haptic_clip import Curve, HapticClip
+from scene2hap.common.arrays import Floats
 from scene2hap.export.envelope import amplitude_of
 from scene2hap.export.fidelity import played_samples
 from scene2hap.export.track import ANALYSIS_HZ, Channel
 
 
-def amplitudes_at_steps(channel: Channel, step_s: float) -> NDArray[np.float64]:
+def amplitudes_at_steps(channel: Channel, step_s: float) -> Floats:
     """Return the amplitude of a channel in each step (n,), 0..1 [-]; the last step may be shorter.
 
     Power is smoothed over one step, which keeps the attacks that the format can hold.
@@ -23,7 +23,7 @@ def amplitudes_at_steps(channel: Channel, step_s: float) -> NDArray[np.float64]:
     return np.asarray(np.clip(np.interp(middles, times, amplitude), 0.0, 1.0))
 
 
-def steps_as_clip(amplitudes: NDArray[np.float64], step_s: float, duration_s: float) -> HapticClip:
+def steps_as_clip(amplitudes: Floats, step_s: float, duration_s: float) -> HapticClip:
     """Return the signal that a player makes of steps: it holds each amplitude until the next."""
     starts = np.arange(len(amplitudes)) * step_s
     ends = np.append(starts[1:], max(duration_s, starts[-1] + 1e-6))

@@ -5,57 +5,16 @@ from __future__ import annotations
 import base64
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 from scene2hap.common.web import WebReply
-from scene2hap.errors import AnswerRefused, BackendUnavailable, BadAnswer
-from scene2hap.llm.answers.finish_reasons import is_cut, is_filtered, is_whole
-from scene2hap.llm.answers.refusals import FILTERED_REQUEST, refusal_in
+from scene2hap.errors import AnswerRefused, BackendUnavailable
+from scene2hap.llm.answers.refusals import FILTERED_REQUEST
+from scene2hap.llm.answers.usable import AFTER_REFUSAL, RawReply, UnusableAnswer
 from scene2hap.llm.backends.http_errors import failure, server_error
 from scene2hap.llm.prompts.quoting import shown
-from scene2hap.llm.protocol import LLMReply, LLMRequest
-
-_AFTER_REFUSAL = "It gets no second try; rename or hide what it objects to, send no pictures, or choose another model."
-
-
-class BackendWarning(UserWarning):
-    """A model or its server deviated from the request; the answer may be worse."""
-
-
-class UnusableAnswer(BadAnswer):
-    """A bad answer that was billed: by `model`, with `usage` in tokens if known, in tier `service_tier`.
-
-    `finish_reason` states why it ended.
-    """
-
-    def __init__(
-        self,
-        message: str,
-        raw_text: str = "",
-        *,
-        model: str = "",
-        usage: Mapping[str, int] | None = None,
-        service_tier: str = "",
-        finish_reason: str = "stop",
-    ) -> None:
-        super().__init__(message, raw_text)
-        self.model = model
-        self.usage: dict[str, int] = dict(usage or {})
-        self.service_tier = service_tier
-        self.finish_reason = finish_reason
-
-
-class RefusedAnswer(UnusableAnswer, AnswerRefused):
-    """A refusal that was billed."""
-
-
-@dataclass(frozen=True)
-class RawReply(LLMReply):
-    """A model's message before any check. Some servers put the answer into `thoughts` by mistake."""
-
-    thoughts: str = ""
-    refusal: str = ""
+from scene2hap.llm.protocol import LLMRequest
 
 
 def user_message(request: LLMRequest, text: str, detail: str) -> dict[str, Any]:
@@ -78,11 +37,6 @@ def as_base64(png: bytes) -> str:
 def json_schema_format(request: LLMRequest, schema: Mapping[str, Any]) -> dict[str, Any]:
     """Return the `response_format` that forces a schema, in the nested form: llama.cpp reads no other."""
     return {"type": "json_schema", "json_schema": {"name": request.component, "strict": True, "schema": schema}}
-
-
-def about(request: LLMRequest) -> str:
-    """Describe the question of a request for a message."""
-    return f"{request.component} about {shown(request.subject or 'the scene')}"
 
 
 def read_chat(reply: WebReply, model: str) -> RawReply:
@@ -129,54 +83,10 @@ def _content(message: Mapping[str, Any]) -> str:
     return json.dumps(arguments) if isinstance(arguments, dict) and arguments else text_of(arguments)
 
 
-def require_whole(said: RawReply, about: str) -> None:
-    """Reject an answer that must not be parsed, even if its content looks valid.
-
-    Raises: UnusableAnswer: cut short, with the partial answer; RefusedAnswer: filtered or refused.
-    """
-    if is_cut(said.finish_reason):
-        raise unusable(
-            said,
-            f"{about}: {said.model} was cut off at its token limit. Raise max_tokens (or num_ctx), or switch off "
-            "its reasoning.",
-            said.text,
-        )
-    _require_willing(said, about, said.refusal)
-
-
-def require_answer(said: LLMReply, about: str) -> None:
-    """Reject a message that is no whole answer. Raises: UnusableAnswer: empty, or ended early; RefusedAnswer."""
-    _require_willing(said, about)
-    if not said.text.strip():
-        raise unusable(said, f"{about}: {said.model} answered without content.", said.text)
-    if not is_whole(said.finish_reason):
-        raise unusable(said, f"{about}: the answer ended by {said.finish_reason!r}, not by itself.", said.text)
-
-
-def _require_willing(said: LLMReply, about: str, refusal: str = "") -> None:
-    """Reject a refusal: in its own field, as finish reason, or as the text itself. Raises: RefusedAnswer."""
-    if is_filtered(said.finish_reason):
-        message = f"{about}: the answer of {said.model} was withheld by a content filter ({said.finish_reason})."
-        raise RefusedAnswer(f"{message} {_AFTER_REFUSAL}", said.text, **_paid(said))
-    if words := refusal or refusal_in(said.text):
-        message = f"{about}: {said.model} refused to answer: {shown(words)}. {_AFTER_REFUSAL}"
-        raise RefusedAnswer(message, words, **_paid(said))
-
-
 def is_withheld(reply: WebReply) -> bool:
     """Return True if a filter kept the question from the model."""
     error = server_error(reply)
     return reply.status == 400 and not FILTERED_REQUEST.isdisjoint({error.code, error.type})
-
-
-def unusable(said: LLMReply, message: str, raw_text: str) -> UnusableAnswer:
-    """Return the error for a model's message, with its model, usage and tier."""
-    return UnusableAnswer(message, raw_text, **_paid(said))
-
-
-def _paid(said: LLMReply) -> dict[str, Any]:
-    tier, reason = said.service_tier, said.finish_reason
-    return {"model": said.model, "usage": said.usage, "service_tier": tier, "finish_reason": reason}
 
 
 def json_object(reply: WebReply) -> dict[str, Any]:
@@ -190,7 +100,7 @@ def json_object(reply: WebReply) -> dict[str, Any]:
     if not reply.ok:
         if is_withheld(reply):
             said = shown(server_error(reply).message)
-            raise AnswerRefused(f"{reply.url} withheld the question from the model: {said}. {_AFTER_REFUSAL}")
+            raise AnswerRefused(f"{reply.url} withheld the question from the model: {said}. {AFTER_REFUSAL}")
         raise failure(reply)
     if body is None and reply.text.lstrip().startswith("{"):
         raise BackendUnavailable(

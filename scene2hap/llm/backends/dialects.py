@@ -13,11 +13,12 @@ from typing import Any, Literal, Protocol
 from scene2hap.common.web import WebReply
 from scene2hap.errors import BadAnswer
 from scene2hap.llm.answers.schema import local_schema
+from scene2hap.llm.answers.usable import RawReply
 from scene2hap.llm.backends import chat
 from scene2hap.llm.protocol import LLMRequest
 
-Rung = Literal["json_schema", "json_object", "prompt"]
-LADDER: tuple[Rung, ...] = ("json_schema", "json_object", "prompt")
+ResponseFormat = Literal["json_schema", "json_object", "prompt"]
+RESPONSE_FORMATS: tuple[ResponseFormat, ...] = ("json_schema", "json_object", "prompt")
 """Ways to prescribe the form of the answer in a request, strictest first. The last is the prompt alone."""
 
 
@@ -44,11 +45,11 @@ class Dialect(Protocol):
 
     path: str
 
-    def body(self, request: LLMRequest, model: str, text: str, rung: Rung) -> dict[str, Any]:
+    def body(self, request: LLMRequest, model: str, text: str, form: ResponseFormat) -> dict[str, Any]:
         """Return the body of a request. `text` is the prompt with the list of answer fields."""
         ...
 
-    def read(self, reply: WebReply, model: str) -> chat.RawReply:
+    def read(self, reply: WebReply, model: str) -> RawReply:
         """Read a reply. Raises: BackendUnavailable, BadAnswer."""
         ...
 
@@ -60,7 +61,7 @@ class ChatCompletions:
     decoding: Decoding
     path = "chat/completions"
 
-    def body(self, request: LLMRequest, model: str, text: str, rung: Rung) -> dict[str, Any]:
+    def body(self, request: LLMRequest, model: str, text: str, form: ResponseFormat) -> dict[str, Any]:
         """Return the body of a chat completion."""
         optional = {
             "top_p": self.decoding.top_p,
@@ -76,13 +77,13 @@ class ChatCompletions:
             **{name: value for name, value in optional.items() if value is not None},
             **self.decoding.extra,
         }
-        if rung == "json_schema":
+        if form == "json_schema":
             body["response_format"] = chat.json_schema_format(request, local_schema(request.answer_schema))
-        elif rung == "json_object":
+        elif form == "json_object":
             body["response_format"] = {"type": "json_object"}
         return body
 
-    def read(self, reply: WebReply, model: str) -> chat.RawReply:
+    def read(self, reply: WebReply, model: str) -> RawReply:
         """Read a reply with `chat.read_chat`."""
         return chat.read_chat(reply, model)
 
@@ -94,7 +95,7 @@ class OllamaChat:
     decoding: Decoding
     path = "api/chat"
 
-    def body(self, request: LLMRequest, model: str, text: str, rung: Rung) -> dict[str, Any]:
+    def body(self, request: LLMRequest, model: str, text: str, form: ResponseFormat) -> dict[str, Any]:
         """Return the body of Ollama's own chat request."""
         options = {
             "num_ctx": self.decoding.num_ctx,
@@ -113,20 +114,20 @@ class OllamaChat:
             "truncate": False,
             "options": options,
         }
-        if rung == "json_schema":
+        if form == "json_schema":
             body["format"] = local_schema(request.answer_schema)
-        elif rung == "json_object":
+        elif form == "json_object":
             body["format"] = "json"
         return body
 
-    def read(self, reply: WebReply, model: str) -> chat.RawReply:
+    def read(self, reply: WebReply, model: str) -> RawReply:
         """Translate a reply of Ollama into a chat completion."""
         body = chat.json_object(reply)
         message = body.get("message")
         if not isinstance(message, dict):
             raise BadAnswer(f"{reply.url} sent no chat message. Check base_url and the dialect.", reply.text)
         renamed = {"prompt_tokens": body.get("prompt_eval_count"), "completion_tokens": body.get("eval_count")}
-        return chat.RawReply(
+        return RawReply(
             text=chat.text_of(message.get("content")),
             model=chat.text_of(body.get("model")) or model,
             finish_reason=chat.text_of(body.get("done_reason")) or "stop",

@@ -27,7 +27,7 @@ _OUT_OF_MONEY = frozenset(
         "organization_usage_limit_exceeded",
     }
 )
-_NO_EYES = "image input is not supported"
+_NO_VISION = "image input is not supported"
 """Message of llama.cpp, with status 500, if it was started without a vision projector."""
 
 _ABOUT_PICTURES = re.compile(r"(?<![\w/-])(images?|image_url|pictures?|vision|multi-?modal)(?![\w-])", re.IGNORECASE)
@@ -81,7 +81,7 @@ def failure(reply: WebReply, *, now_s: float | None = None) -> BackendUnavailabl
     if {error.code, error.type} & _OUT_OF_MONEY:
         retryable = False
         parts.append("The account is used up: raise its limit or choose another backend.")
-    elif _NO_EYES in error.message:
+    elif _NO_VISION in error.message:
         retryable = False
         parts.append("Start the server with the model's vision projector (--mmproj) or choose a model that sees.")
     elif wait_s is not None and wait_s > LONGEST_WAIT_S:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from scene2hap.common.warning import warn_of
-from scene2hap.llm.backends import chat
-from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.answers.usable import question_of
+from scene2hap.llm.protocol import BackendWarning, LLMReply, LLMRequest
 
 CHARACTERS_PER_TOKEN = 4.0
 """Assumed: usual for English."""
@@ -79,10 +79,10 @@ class LostImages:
             return
         self._warned = True
         warn_of(
-            f"{chat.about(request)}: {said.model} read {read} tokens where about {expected:.0f} were sent with "
+            f"{question_of(request)}: {said.model} read {read} tokens where about {expected:.0f} were sent with "
             f"{len(request.images)} pictures. It may not have seen them: raise the server's context (num_ctx), and "
             "check that the model sees.",
-            chat.BackendWarning,
+            BackendWarning,
         )
 
 
@@ -102,7 +102,7 @@ class ImagesAsText:
             return
         self._warned = True
         warn_of(
-            f"{chat.about(request)}: {said.model} billed {read} tokens where its {len(request.images)} pictures make "
+            f"{question_of(request)}: {said.model} billed {read} tokens where its {len(request.images)} pictures make "
             f"{most:.0f} at most. It seems to read them as text: choose another model or send no pictures.",
-            chat.BackendWarning,
+            BackendWarning,
         )

@@ -19,12 +19,20 @@ from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.answers.json_text import first_object
 from scene2hap.llm.answers.schema import fields_in_words
+from scene2hap.llm.answers.usable import RawReply, question_of, require_whole, unusable
 from scene2hap.llm.backends import chat, server_models
-from scene2hap.llm.backends.dialects import LADDER, ChatCompletions, Decoding, Dialect, OllamaChat, Rung
+from scene2hap.llm.backends.dialects import (
+    RESPONSE_FORMATS,
+    ChatCompletions,
+    Decoding,
+    Dialect,
+    OllamaChat,
+    ResponseFormat,
+)
 from scene2hap.llm.backends.http_client import Endpoint
 from scene2hap.llm.backends.image_tokens import LostImages
 from scene2hap.llm.backends.optional_parameters import OptionalParameters
-from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.protocol import BackendWarning, LLMReply, LLMRequest
 
 if TYPE_CHECKING:
     from scene2hap.common.web import Transport
@@ -96,9 +104,9 @@ class LocalBackend:
         self._dialect: Dialect = (OllamaChat if dialect == "ollama" else ChatCompletions)(self._decoding)
         self._endpoint = Endpoint(base_url, Secret(api_key), timeout_s, transport)
         self._optional = OptionalParameters()
-        self._rung = 0
+        self._form = 0
         self._lost_images = LostImages()
-        self._eyes_checked = False
+        self._vision_checked = False
 
     def __repr__(self) -> str:
         dialect = "ollama" if self._is_ollama else "openai"
@@ -110,9 +118,9 @@ class LocalBackend:
         return {"model": self.model, "base_url": self._endpoint.base_url, **asdict(self._decoding)}
 
     @property
-    def rung(self) -> Rung:
+    def response_format(self) -> ResponseFormat:
         """The form of the answer that this server accepted last."""
-        return LADDER[self._rung]
+        return RESPONSE_FORMATS[self._form]
 
     async def ready(self) -> None:
         """Find the name of the served model if none was given.
@@ -129,34 +137,34 @@ class LocalBackend:
         BadAnswer: cut short or empty.
         """
         await self.ready()
-        if request.images and not self._eyes_checked:
-            await self._check_eyes()
+        if request.images and not self._vision_checked:
+            await self._check_vision()
         said = await self._ask(request)
         self._lost_images.look(request, said)
-        chat.require_whole(said, chat.about(request))
+        require_whole(said, question_of(request))
         text = first_object(said.text) or said.text or first_object(said.thoughts)
         if not text:
-            message = f"{chat.about(request)}: {said.model} answered without content. Switch off its reasoning."
-            raise chat.unusable(said, message, said.thoughts)
+            message = f"{question_of(request)}: {said.model} answered without content. Switch off its reasoning."
+            raise unusable(said, message, said.thoughts)
         return LLMReply(text, said.model, said.finish_reason, said.usage, service_tier=said.service_tier)
 
     @property
     def _is_ollama(self) -> bool:
         return isinstance(self._dialect, OllamaChat)
 
-    async def _ask(self, request: LLMRequest) -> chat.RawReply:
-        for rung in range(self._rung, len(LADDER)):
-            reply = await self._post(request, LADDER[rung])
+    async def _ask(self, request: LLMRequest) -> RawReply:
+        for form in range(self._form, len(RESPONSE_FORMATS)):
+            reply = await self._post(request, RESPONSE_FORMATS[form])
             if reply.status not in _FORM_REJECTED or chat.is_withheld(reply):
                 break
         if reply.ok:
             # Store a form only on success: a request that fails in every form (too long a prompt) proves nothing.
-            self._rung = max(self._rung, rung)
+            self._form = max(self._form, form)
         return self._dialect.read(reply, self.model or "")
 
-    async def _post(self, request: LLMRequest, rung: Rung) -> WebReply:
+    async def _post(self, request: LLMRequest, form: ResponseFormat) -> WebReply:
         text = f"{request.prompt}\n\n{fields_in_words(request.answer_schema)}"
-        body = self._dialect.body(request, self.model or "", text, rung)
+        body = self._dialect.body(request, self.model or "", text, form)
         while True:
             sent = self._optional.adapted(body)
             reply = await self._endpoint.post(self._dialect.path, sent)
@@ -166,7 +174,7 @@ class LocalBackend:
     async def _models(self) -> tuple[server_models.ServerModel, ...]:
         return await (server_models.ollama_models if self._is_ollama else server_models.openai_models)(self._endpoint)
 
-    async def _check_eyes(self) -> None:
+    async def _check_vision(self) -> None:
         """Check once whether the server reports that the model reads pictures. Without a report, assume that it does.
 
         Raises: BackendUnavailable: the model does not read pictures.
@@ -186,12 +194,12 @@ class LocalBackend:
                 f"{self.model} at {self._endpoint.base_url} takes no pictures. Choose a model that sees (llama.cpp "
                 "needs its --mmproj), or bake a scene without images."
             )
-        self._eyes_checked = True
+        self._vision_checked = True
 
     def _warn_of_ollama(self, is_ollama: bool) -> None:
-        if is_ollama and not self._eyes_checked:
+        if is_ollama and not self._vision_checked:
             warn_of(
                 f"{self._endpoint.base_url} is an Ollama, whose /v1 drops pictures that do not fit, without an error. "
                 "Use dialect='ollama' and the address without /v1.",
-                chat.BackendWarning,
+                BackendWarning,
             )

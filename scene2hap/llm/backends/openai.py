@@ -15,6 +15,7 @@ from scene2hap.common.secret import Secret
 from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.answers.schema import strict_schema
+from scene2hap.llm.answers.usable import RawReply, question_of, require_whole, unusable
 from scene2hap.llm.backends import chat
 from scene2hap.llm.backends.http_client import Endpoint
 from scene2hap.llm.backends.http_errors import server_error
@@ -138,12 +139,12 @@ class OpenAIBackend:
         """Return the body of a request, without parameters that this model has rejected."""
         return self._optional.adapted(self._body(request))
 
-    def judged(self, request: LLMRequest, said: chat.RawReply) -> LLMReply:
+    def judged(self, request: LLMRequest, said: RawReply) -> LLMReply:
         """Return the reply for a chat completion. Raises: BadAnswer: as `complete`."""
         self._images_as_text.look(request, said)
-        chat.require_whole(said, chat.about(request))
+        require_whole(said, question_of(request))
         if not said.text:
-            raise chat.unusable(said, f"{chat.about(request)}: {said.model} answered without content.", "")
+            raise unusable(said, f"{question_of(request)}: {said.model} answered without content.", "")
         return LLMReply(said.text, said.model, said.finish_reason, said.usage, service_tier=said.service_tier)
 
     def report(self) -> dict[str, int]:
@@ -160,7 +161,7 @@ class OpenAIBackend:
             **({} if self._tier is None else {"service_tier": self._tier}),
         }
 
-    async def _ask(self, body: dict[str, Any]) -> chat.RawReply:
+    async def _ask(self, body: dict[str, Any]) -> RawReply:
         """Post the request, and repeat it once without each parameter that the model rejects.
 
         If the tier has no capacity, only this request is repeated without the tier.

@@ -9,10 +9,10 @@ from typing import Any
 from scene2hap.common.warning import warn_of
 from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable
-from scene2hap.llm.backends.chat import BackendWarning
 from scene2hap.llm.backends.http_errors import ServerError, failure, server_error
+from scene2hap.llm.protocol import BackendWarning
 
-_GIVES_WAY = {
+_OTHER_NAMES = {
     "temperature": None,
     "top_p": None,
     "seed": None,
@@ -29,11 +29,11 @@ class OptionalParameters:
     """Which optional parameters a model has rejected."""
 
     def __init__(self) -> None:
-        self._given_way: set[str] = set()
+        self._rejected: set[str] = set()
 
     def adapted(self, body: dict[str, Any]) -> dict[str, Any]:
         """Return the body of a request without the rejected parameters, or with their other names."""
-        renamed = {_GIVES_WAY[name] if name in self._given_way else name: value for name, value in body.items()}
+        renamed = {_OTHER_NAMES[name] if name in self._rejected else name: value for name, value in body.items()}
         return {name: value for name, value in renamed.items() if name is not None}
 
     def learns(self, reply: WebReply, model: str, sent: Mapping[str, Any] | None = None) -> bool:
@@ -42,16 +42,16 @@ class OptionalParameters:
         A parameter that is not in `sent` was dropped before, so the result is False.
         """
         blamed = _blamed(server_error(reply)) if reply.status == 400 else ""
-        if blamed not in _GIVES_WAY or (sent is not None and blamed not in sent):
+        if blamed not in _OTHER_NAMES or (sent is not None and blamed not in sent):
             return False
-        self._give_way(blamed, model, failure(reply))
+        self._reject(blamed, model, failure(reply))
         return True
 
-    def _give_way(self, parameter: str, model: str, reason: BackendUnavailable) -> None:
-        if parameter in self._given_way:
+    def _reject(self, parameter: str, model: str, reason: BackendUnavailable) -> None:
+        if parameter in self._rejected:
             return  # a concurrent call has already dropped it
-        self._given_way.add(parameter)
-        instead = _GIVES_WAY[parameter]
+        self._rejected.add(parameter)
+        instead = _OTHER_NAMES[parameter]
         if parameter == "service_tier":
             what = "it is no longer sent, so answers cost the standard price"
         else:

@@ -21,7 +21,7 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction, not_pickled
 from scene2hap.common.files import read_small
 from scene2hap.errors import BadAnswer, ConfigError, ReplayMiss, reason_of, unwritable
-from scene2hap.llm.backends.chat import UnusableAnswer
+from scene2hap.llm.answers.usable import UnusableAnswer
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.request_key import canonical, part_names, plain, request_key
 from scene2hap.llm.stack import Spec, Wrapper, identity

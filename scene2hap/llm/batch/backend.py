@@ -11,11 +11,12 @@ from typing import Any, get_args
 
 from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendUnavailable, BadAnswer, Scene2HapError
+from scene2hap.llm.answers.usable import question_of
 from scene2hap.llm.backends import chat
 from scene2hap.llm.backends.openai import OpenAIBackend
 from scene2hap.llm.batch.folder import BatchFolder, Outcome, RequestWriter, Stage, keys_in
 from scene2hap.llm.chain.dry_run import estimated_cost_usd
-from scene2hap.llm.protocol import AnswerPending, LLMReply, LLMRequest
+from scene2hap.llm.protocol import AnswerPending, BackendWarning, LLMReply, LLMRequest
 from scene2hap.llm.request_key import canonical
 from scene2hap.llm.wrappers.prices import PriceList
 
@@ -70,7 +71,7 @@ class BatchBackend:
         """Return the answer. Raises: AnswerPending: there is none yet; BadAnswer: it failed, or is unusable."""
         body = self._body(request)
         key = _key(body)
-        about = chat.about(request)
+        about = question_of(request)
         if key in self._answers:
             said = chat.read_chat(self._answers[key], self._model.model)
             return self._model.judged(request, replace(said, service_tier=TIER))
@@ -108,7 +109,7 @@ class BatchBackend:
         except BackendUnavailable as problem:
             with warnings.catch_warnings():
                 # Every later run reads this line again and would repeat the warning.
-                warnings.simplefilter("ignore", chat.BackendWarning)
+                warnings.simplefilter("ignore", BackendWarning)
                 is_lesson = self._model.learns(reply)
             # The question without the rejected parameter has another key, so this key is not retried.
             self._failures[key] += 1 if problem.retryable or is_lesson else _TRIES

@@ -17,10 +17,10 @@ from scene2hap.common.warning import warn_of
 from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, RequestRejected
 from scene2hap.llm.answers import Answer, AnswerType, read_answer
 from scene2hap.llm.answers.json_text import answer_object
-from scene2hap.llm.backends import chat
+from scene2hap.llm.answers.usable import UnusableAnswer, question_of, require_answer
 from scene2hap.llm.chain.report import InferenceReport
 from scene2hap.llm.prompts import Prompts
-from scene2hap.llm.protocol import AnswerPending, Component, LLMBackend, LLMReply, LLMRequest
+from scene2hap.llm.protocol import AnswerPending, BackendWarning, Component, LLMBackend, LLMReply, LLMRequest
 
 MOST_UNANSWERED = 8
 """Questions of one component in a row without an answer that stop a run (assumed: all that run at once by default)."""
@@ -107,7 +107,7 @@ class Questions:
         warn_of(
             f"stopping: {counted(self._limit.n_running, 'question')} to the model will be answered first, since the "
             "answers are paid for. Interrupt again to stop at once.",
-            chat.BackendWarning,
+            BackendWarning,
         )
 
     async def ask(
@@ -135,7 +135,7 @@ class Questions:
         )
         async with self._limit.free:
             reply = await self._counted(request)
-        answer = _validated(reply, shape, chat.about(request))
+        answer = _validated(reply, shape, question_of(request))
         kept_as = f", {reply.key[:19]}" if reply.key else ""
         return answer, f"{reply.model}, prompt {self._prompts.version}{kept_as}"
 
@@ -147,7 +147,7 @@ class Questions:
         try:
             reply = await self._kept(request)
         except Exception as problem:  # a backend of a user's own may raise any error
-            if isinstance(problem, chat.UnusableAnswer):  # it was billed although it is unusable
+            if isinstance(problem, UnusableAnswer):  # it was billed although it is unusable
                 self.report.take(LLMReply("", problem.model, usage=problem.usage, service_tier=problem.service_tier))
             self._close_if_general(request.component, problem)
             raise
@@ -188,7 +188,7 @@ def _schema(shape: type[Answer]) -> dict[str, Any]:
 
 def _validated(reply: LLMReply, shape: type[AnswerType], about: str) -> AnswerType:
     """Return the answer in a reply. Raises: BadAnswer, AnswerRefused: see `Questions.ask`."""
-    chat.require_answer(reply, about)
+    require_answer(reply, about)
     try:
         return read_answer(shape, answer_object(reply.text) or reply.text)
     except ValidationError as cause:

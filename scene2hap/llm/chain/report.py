@@ -10,8 +10,7 @@ from typing import Any
 from scene2hap.common.checks import represented
 from scene2hap.common.counted import first_of
 from scene2hap.common.warning import warn_of
-from scene2hap.llm.backends.chat import BackendWarning
-from scene2hap.llm.protocol import Component, LLMReply
+from scene2hap.llm.protocol import BackendWarning, Component, LLMReply
 from scene2hap.llm.wrappers.prices import PriceList
 
 _LONGEST_SHOWN = 1000

@@ -7,10 +7,10 @@ in the lexicon is looked up here only if an object of that meaning cannot be so 
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections.abc import Callable, Iterator, Mapping
 from functools import cache, lru_cache
 
+from scene2hap.common.printable import without_accents
 from scene2hap.llm.lexicon.table import rows_of
 
 # Foreign words that are also English words: a number, a state, a tool's cube, a colour, or another object.
@@ -159,8 +159,4 @@ def _rows() -> Iterator[tuple[str, str, tuple[str, ...]]]:
     for row in rows_of("translations.csv"):
         for pair in row["words"].split(";"):
             word, meaning = pair.split("=")
-            yield row["language"], _without_accents(word).replace(" ", ""), tuple(meaning.split())
-
-
-def _without_accents(word: str) -> str:
-    return "".join(letter for letter in unicodedata.normalize("NFKD", word) if not unicodedata.combining(letter))
+            yield row["language"], without_accents(word).replace(" ", ""), tuple(meaning.split())

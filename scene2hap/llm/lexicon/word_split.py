@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache, lru_cache, partial
 
+from scene2hap.common.printable import without_accents
 from scene2hap.llm.lexicon import translations, words
 from scene2hap.llm.lexicon.table import ObjectRow, table
 
@@ -81,9 +81,8 @@ def split_words(name: str) -> list[str]:
 
 
 def _plain(name: str) -> str:
-    """Return a name without hashes and accents. Unicode has no accent for the stroke of the Polish "ł"."""
-    letters = unicodedata.normalize("NFKD", _HASH.sub(" ", name).replace("ł", "l").replace("Ł", "L"))
-    return "".join(letter for letter in letters if not unicodedata.combining(letter))
+    """Return a name without hashes and accents."""
+    return without_accents(_HASH.sub(" ", name))
 
 
 def _without_shades(tokens: Sequence[str]) -> list[str]:

@@ -9,8 +9,8 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import BackendError, BudgetExceeded, ConfigError
-from scene2hap.llm.backends.chat import BackendWarning, UnusableAnswer
-from scene2hap.llm.protocol import LLMReply, LLMRequest
+from scene2hap.llm.answers.usable import UnusableAnswer
+from scene2hap.llm.protocol import BackendWarning, LLMReply, LLMRequest
 from scene2hap.llm.stack import Spec, Wrapper, identity, is_remote
 from scene2hap.llm.wrappers.prices import Given, Price, PriceList, price_list
 

@@ -23,8 +23,7 @@ from scene2hap.common.files import read_small, write_whole
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import ConfigError, reason_of, unwritable
 from scene2hap.llm.answers.finish_reasons import is_whole
-from scene2hap.llm.backends.chat import BackendWarning
-from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
+from scene2hap.llm.protocol import BackendWarning, Component, LLMReply, LLMRequest
 from scene2hap.llm.request_key import request_key
 from scene2hap.llm.stack import Spec, Wrapper
 from scene2hap.llm.validation import find_fault

@@ -9,7 +9,7 @@ from scene2hap.common import checks
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import BadAnswer, ConfigError
 from scene2hap.llm.answers.json_text import answer_object
-from scene2hap.llm.backends.chat import UnusableAnswer, about as describe, require_answer, unusable
+from scene2hap.llm.answers.usable import UnusableAnswer, question_of, require_answer, unusable
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.stack import Spec, Wrapper
 from scene2hap.llm.validation import Fault, find_fault
@@ -55,7 +55,7 @@ class RepairBackend(Wrapper):
                 usable = replace(reply, text=text)
             elif left == 0:
                 self._given_up += 1
-                message = f"{describe(request)}: still wrong after {self._repairs} repairs: {fault.reason}. "
+                message = f"{question_of(request)}: still wrong after {self._repairs} repairs: {fault.reason}. "
                 message += "Choose a model that keeps to the form, or raise `repairs`."
                 raise unusable(replace(reply, usage=dict(usage)), message, reply.text)
             left -= 1
@@ -71,7 +71,7 @@ class RepairBackend(Wrapper):
             problem.usage = dict(usage)
             raise
         usage.update(reply.usage)
-        require_answer(replace(reply, usage=dict(usage)), describe(question))
+        require_answer(replace(reply, usage=dict(usage)), question_of(question))
         return reply
 
     def report(self) -> dict[str, int]:

@@ -24,7 +24,7 @@ class RetryBackend(Wrapper):
 
     Waits as long as the server states. Otherwise it waits with exponential back-off, times a random share that spreads
     the calls of many clients.
-    told_retries : most repetitions after waits that the server stated, in addition to `retries`; None counts both
+    rate_limit_retries : most repetitions after waits that the server stated, in addition to `retries`; None counts both
     together. If many calls share a low rate limit, the server rejects each of them many times.
     Bad answers are not repeated here; `RepairBackend` does that. `rng` and `sleep` are for tests.
     """
@@ -34,16 +34,16 @@ class RetryBackend(Wrapper):
         inner: Spec,
         retries: int = 2,
         *,
-        told_retries: int | None = None,
+        rate_limit_retries: int | None = None,
         rng: random.Random | None = None,
         sleep: Callable[[float], Awaitable[object]] = asyncio.sleep,
     ) -> None:
         super().__init__(inner)
         checks.number("retries", retries, "-", at_least=0, error=ConfigError)
-        if told_retries is not None:
-            checks.number("told_retries", told_retries, "-", at_least=0, error=ConfigError)
+        if rate_limit_retries is not None:
+            checks.number("rate_limit_retries", rate_limit_retries, "-", at_least=0, error=ConfigError)
         self._retries = retries
-        self._told_retries = told_retries
+        self._rate_limit_retries = rate_limit_retries
         self._rng = rng or random.Random()
         self._sleep = sleep
         self._calls = self._retried = self._given_up = 0
@@ -59,11 +59,11 @@ class RetryBackend(Wrapper):
             except BackendUnavailable as problem:
                 if not problem.retryable:
                     raise
-                if problem.retry_after_s and self._told_retries is not None:
+                if problem.retry_after_s and self._rate_limit_retries is not None:
                     n_stated += 1
                 else:
                     n_unstated += 1
-                if n_unstated > self._retries or n_stated > (self._told_retries or 0):
+                if n_unstated > self._retries or n_stated > (self._rate_limit_retries or 0):
                     self._given_up += 1
                     raise
                 wait_s = self._wait_s(n_unstated - 1, problem)

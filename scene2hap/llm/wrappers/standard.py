@@ -18,7 +18,7 @@ from scene2hap.llm.wrappers.retry import RetryBackend
 
 RETRIES = 6
 """Assumed: waits of 0.5, 1, 2, 4, 8 and 8 s are enough for a server to load its model."""
-TOLD_RETRIES = 30
+RATE_LIMIT_RETRIES = 30
 """Assumed: ten minutes in waits of 20 s, as a limit of three requests a minute requires."""
 
 
@@ -28,7 +28,7 @@ def standard_stack(
     *,
     repairs: int = 2,
     retries: int = RETRIES,
-    told_retries: int = TOLD_RETRIES,
+    rate_limit_retries: int = RATE_LIMIT_RETRIES,
     max_calls: int | None = None,
     max_tokens: int | None = None,
     max_cost: float | None = None,
@@ -37,14 +37,14 @@ def standard_stack(
 ) -> LLMBackend:
     """Wrap a model in cache, repair, budget and retry. `inner` is a backend or a specification of one.
 
-    cache_folder : folder of stored answers, None for no cache; repairs, retries, told_retries (after waits that the
-    server stated) : most of each, per call; max_calls, max_tokens, max_cost [US dollars] : limits, None for none;
+    cache_folder : folder of stored answers, None for no cache; repairs, retries, rate_limit_retries (after waits that
+    the server stated) : most of each, per call; max_calls, max_tokens, max_cost [US dollars] : limits, None for none;
     prices : additions to the dated list; sleep : for tests.
     The cache stores repaired answers only, the budget counts every repair, and calls without an answer are not
     counted. `reports` returns the counts of each layer.
     Raises: ConfigError: a setting that cannot work.
     """
-    retried = RetryBackend(inner, retries, told_retries=told_retries, sleep=sleep)
+    retried = RetryBackend(inner, retries, rate_limit_retries=rate_limit_retries, sleep=sleep)
     paid = BudgetBackend(retried, max_calls, max_tokens, max_cost, prices)
     valid = RepairBackend(paid, repairs)
     return valid if cache_folder is None else CacheBackend(valid, cache_folder)

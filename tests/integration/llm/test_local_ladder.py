@@ -21,14 +21,14 @@ def test_ladder_goes_down_and_is_remembered() -> None:
         ask(backend)
     formats = [body.get("response_format", {}).get("type") for body in server.bodies]
     assert formats == ["json_schema", "json_object", None, None]
-    assert backend.rung == "prompt"
+    assert backend.response_format == "prompt"
 
 
 def test_ladder_stops_where_the_server_agrees() -> None:
     with serving(refused(422, "no"), said()) as server:
         backend = local(server)
         ask(backend)
-    assert backend.rung == "json_object"
+    assert backend.response_format == "json_object"
 
 
 def test_rejected_parameters_give_way_before_the_format_does() -> None:
@@ -49,7 +49,7 @@ def test_rejected_parameters_give_way_before_the_format_does() -> None:
     for body in server.bodies[2:]:
         assert body["max_completion_tokens"] == 300
         assert not {"temperature", "max_tokens"} & set(body)
-    assert backend.rung == "json_schema"
+    assert backend.response_format == "json_schema"
 
 
 def test_failure_at_every_format_is_not_remembered() -> None:
@@ -57,7 +57,7 @@ def test_failure_at_every_format_is_not_remembered() -> None:
         backend = local(server)
         with pytest.raises(BackendUnavailable, match="context length exceeded"):
             ask(backend)
-    assert backend.rung == "json_schema"
+    assert backend.response_format == "json_schema"
 
 
 @pytest.mark.parametrize("status", [404, 500, 503])
@@ -164,7 +164,7 @@ def test_lm_studio_gets_pictures_without_a_schema() -> None:
     with serving(crash, REJECTS_JSON_OBJECT, said()) as server:
         backend = local(server)
         ask(backend, request(images=(PNG,)))
-    assert backend.rung == "prompt"
+    assert backend.response_format == "prompt"
 
 
 def test_errors_of_lm_studio_are_plain_texts() -> None:

@@ -12,7 +12,7 @@ from scene2hap import (
     RepairBackend,
 )
 from scene2hap.errors import AnswerRefused, BadAnswer
-from scene2hap.llm.backends.chat import UnusableAnswer
+from scene2hap.llm.answers.usable import UnusableAnswer
 
 
 def test_truncation_is_reported_before_other_faults() -> None:

@@ -15,7 +15,7 @@ from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.sources.library import ShortSound
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import CONVERTERS
-from scene2hap.baking.sound import Sounds, make_loops
+from scene2hap.baking.loops import Sounds, make_loops
 from scene2hap.errors import AudioError
 from scene2hap.haptics import ObjectHaptics, SourceState, VibrationDescription
 from scene2hap.materials import lookup

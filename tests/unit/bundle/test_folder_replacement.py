@@ -13,9 +13,10 @@ from files_of import files_of
 from scene2hap import HapticBundle
 from scene2hap.bundle import folder_replacement
 from scene2hap.bundle.checking import BundleWarning
-from scene2hap.bundle.folder import read_overrides, write_bundle
 from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
 from scene2hap.bundle.folder_swap import exchange
+from scene2hap.bundle.overrides_file import read_overrides
+from scene2hap.bundle.writing import write_bundle
 from scene2hap.errors import BundleChanged, BundleError, BundleIncomplete, BundleVersionError
 from scenes import table_with_two_phones
 from systems import needs_links, needs_long_names, needs_modes
@@ -278,7 +279,7 @@ def test_the_new_name_is_on_the_disk_when_a_save_returns(tmp_path: Path, monkeyp
 
 DIES = """
 import os, sys
-from scene2hap.bundle import folder, folder_replacement
+from scene2hap.bundle import folder_replacement, writing
 from scenes import table_with_two_phones
 if sys.argv[2] == "between":
     folder_replacement.exchange = lambda one, other: False
@@ -294,7 +295,7 @@ else:
         print("writing", flush=True)
         sys.stdin.readline()
         os._exit(9)
-    folder._write = hanging
+    writing._write = hanging
 table_with_two_phones()[1].override("phone", gain_db=-7.0).save(sys.argv[1])
 """
 
@@ -434,7 +435,7 @@ def test_a_bundle_that_is_replaced_while_it_is_read_is_read_again(
     """What was read by then may be of both bundles, and fit together or not."""
     folder = a_bundle().save(tmp_path / "room")
     other = a_bundle().override("phone", gain_db=-7.0)
-    from scene2hap.bundle import folder as reading
+    from scene2hap.bundle import reading
 
     read, times = reading._read_scene, []
 

@@ -166,6 +166,14 @@ def test_ids_that_differ_in_case_have_files_of_their_own_on_any_system(tmp_path:
     assert len(set(exported)) == 8
 
 
+def test_accented_letters_of_an_id_stay_readable_in_its_file_name() -> None:
+    stems = file_stems(["Kühlschrank", "Außenlampe", "lampe_à_pied", "łóżko"])
+    assert [stem.rpartition("-")[0] for stem in stems.values()] == [
+        *("Kuhlschrank", "Aussenlampe", "lampe_a_pied", "lozko")
+    ]
+    assert len({*file_stems(["Kühlschrank", "Kuhlschrank"]).values()}) == 2
+
+
 def test_only_ids_that_need_it_get_a_digest() -> None:
     stems = file_stems(["Fan", "fan", "lamp", "Lamp 2", "Radio"])
     assert (stems["lamp"], stems["Radio"]) == ("lamp", "Radio")

@@ -15,8 +15,7 @@ from scene2hap.audio.conversion import Failure, convert, convert_files
 from scene2hap.audio.sources.library import FolderLibrary
 from scene2hap.bridge.config import BridgeConfig
 from scene2hap.bundle.folder_replacement import require_replaceable
-from scene2hap.cli.console import Console
-from scene2hap.cli.inspect import write_pictures
+from scene2hap.cli.inspect import require_pictures
 from scene2hap.clips.ahap import read_ahap
 from scene2hap.common.files import draft_of, drafts_of, read_small, read_small_text, require_place, write_whole
 from scene2hap.common.settings import read_settings
@@ -24,7 +23,6 @@ from scene2hap.devices.protocol import SinkFormat
 from scene2hap.errors import AudioError, ConfigError, Scene2HapError
 from scene2hap.export import export_clip
 from scene2hap.llm.prompts import Prompts
-from scenes import box, scene
 from systems import needs_long_names
 
 
@@ -144,15 +142,12 @@ def test_a_device_or_a_pipe_is_not_replaced_by_a_file(tmp_path: Path) -> None:
     "use",
     [
         lambda folder: WavSink(folder / "made.wav").open(SinkFormat(48_000, ("left",))),
-        lambda folder: write_pictures(scene(box("box", (1, 1, 1), (0, 0, 0))), folder, Console(quiet=True)),
+        require_pictures,
         lambda folder: export_clip("none.haptic", folder),
         lambda folder: read_settings(str(folder / "own.toml"), "bake"),
     ],
 )
-def test_a_file_where_a_folder_must_be_is_named(
-    use: Callable[[Path], object], place: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("scene2hap.cli.inspect.render_all", lambda *given, **options: pytest.fail("work is lost"))
+def test_a_file_where_a_folder_must_be_is_named(use: Callable[[Path], object], place: str, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("mine")
     with pytest.raises(Scene2HapError, match=re.escape(f"{tmp_path / 'file'} is not a folder.")):
         use(tmp_path / place)

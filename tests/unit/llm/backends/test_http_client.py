@@ -1,9 +1,10 @@
 """The HTTP client of LLM backends, with replies and errors from an injected transport."""
 
 import asyncio
+import gzip
 import json
 import traceback
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable
 from typing import Any
 
 import httpx
@@ -14,7 +15,7 @@ from scene2hap import OpenAIBackend
 from scene2hap.common.secret import Secret
 from scene2hap.common.web import WebReply
 from scene2hap.errors import BackendError, BackendUnavailable, ConfigError
-from scene2hap.llm.backends.http_client import Endpoint
+from scene2hap.llm.backends.http_client import MAX_REPLY_BYTES, Endpoint
 
 
 def post(answer: Callable[[httpx.Request], httpx.Response], body: Any = None, key: str | None = KEY) -> WebReply:
@@ -120,6 +121,31 @@ def test_no_traceback_holds_the_header_in_a_local_variable() -> None:
     while cause is not None:
         assert cause.__traceback__ is None
         cause = cause.__cause__ or cause.__context__
+
+
+@pytest.mark.parametrize(
+    ("content", "packing"),
+    [
+        (f"not packed: {KEY}".encode(), "gzip"),
+        (gzip.compress(f"a part: {KEY}".encode())[:-12], "gzip"),
+        (KEY.encode() * (MAX_REPLY_BYTES // len(KEY) + 1), "identity"),
+    ],
+    ids=["not packed", "cut short", "too large"],
+)
+def test_no_traceback_holds_a_body_that_is_no_answer(content: bytes, packing: str) -> None:
+    """A proxy's page may echo the header of the request."""
+
+    async def parts() -> AsyncIterator[bytes]:
+        yield content
+
+    def echo(_: httpx.Request) -> httpx.Response:
+        return httpx.Response(200, headers={"content-encoding": packing}, content=parts())
+
+    with pytest.raises(BackendUnavailable) as caught:
+        post(echo)
+    frames = caught.value.__traceback__.tb_next.tb_next
+    shown = traceback.TracebackException(BackendUnavailable, caught.value, frames, capture_locals=True)
+    assert KEY[:20] not in "".join(shown.format())
 
 
 def test_get_sends_the_key_and_has_its_own_timeout() -> None:

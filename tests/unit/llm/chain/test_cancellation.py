@@ -7,8 +7,8 @@ from typing import ClassVar
 import pytest
 
 from scene2hap import CacheBackend, LLMReply, LLMRequest
-from scene2hap.llm.backends.chat import BackendWarning
 from scene2hap.llm.chain import infer_scene
+from scene2hap.llm.protocol import BackendWarning
 from scripted_backend import SCENE, Scripted
 
 

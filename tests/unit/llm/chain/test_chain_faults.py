@@ -20,7 +20,7 @@ from scene2hap import (
     materials,
 )
 from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, ReplayMiss, RequestRejected
-from scene2hap.llm.backends.chat import UnusableAnswer
+from scene2hap.llm.answers.usable import UnusableAnswer
 from scene2hap.llm.chain import infer_scene
 from scene2hap.llm.chain.questions import MOST_UNANSWERED
 from scenes import box, scene

@@ -18,7 +18,7 @@ from scene2hap import (
     RepairBackend,
 )
 from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, ConfigError
-from scene2hap.llm.backends.chat import UnusableAnswer
+from scene2hap.llm.answers.usable import UnusableAnswer
 from scene2hap.llm.wrappers import price_list
 
 USAGE = {"prompt_tokens": 1000, "completion_tokens": 200}

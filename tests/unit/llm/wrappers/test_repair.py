@@ -10,7 +10,7 @@ import pytest
 from llm_server import GOOD, PNG, request
 from scene2hap import FunctionBackend, LLMReply, LLMRequest, RepairBackend
 from scene2hap.errors import BadAnswer
-from scene2hap.llm.backends.chat import UnusableAnswer
+from scene2hap.llm.answers.usable import UnusableAnswer
 from scene2hap.llm.validation import ANSWERS, find_fault
 
 OAK = GOOD["material_estimator"]

@@ -75,19 +75,19 @@ TOLD = BackendUnavailable("slow", retryable=True, retry_after_s=20.0)
 
 def test_server_requested_waits_have_a_separate_count() -> None:
     failing = Failing(TOLD, AWAY, TOLD, AWAY, TOLD)
-    backend = RetryBackend(failing.backend, 2, told_retries=3, rng=random.Random(0), sleep=failing.sleep)
+    backend = RetryBackend(failing.backend, 2, rate_limit_retries=3, rng=random.Random(0), sleep=failing.sleep)
     asyncio.run(backend.complete(request()))
     assert [wait_s for wait_s in failing.waits_s if wait_s != 20.0] == pytest.approx([0.5, 1.0], rel=0.25)
     assert failing.waits_s.count(20.0) == 3
 
 
 @pytest.mark.parametrize(
-    ("told_retries", "errors", "calls"),
+    ("rate_limit_retries", "errors", "calls"),
     [(3, [TOLD] * 9, 4), (3, [AWAY] * 9, 3), (0, [TOLD] * 9, 1), (None, [TOLD] * 9, 3), (None, [TOLD, AWAY] * 5, 3)],
 )
-def test_retry_counts_are_never_exceeded(told_retries: int | None, errors: list[Exception], calls: int) -> None:
+def test_retry_counts_are_never_exceeded(rate_limit_retries: int | None, errors: list[Exception], calls: int) -> None:
     failing = Failing(*errors)
-    backend = RetryBackend(failing.backend, 2, told_retries=told_retries, sleep=failing.sleep)
+    backend = RetryBackend(failing.backend, 2, rate_limit_retries=rate_limit_retries, sleep=failing.sleep)
     with pytest.raises(BackendUnavailable):
         asyncio.run(backend.complete(request()))
     assert len(failing.backend.requests) == calls
@@ -96,13 +96,13 @@ def test_retry_counts_are_never_exceeded(told_retries: int | None, errors: list[
 
 def test_a_stated_wait_of_0_s_is_no_reason_to_hurry() -> None:
     failing = Failing(*[BackendUnavailable("busy", retryable=True, retry_after_s=0.0)] * 40)
-    backend = RetryBackend(failing.backend, 2, told_retries=30, rng=random.Random(0), sleep=failing.sleep)
+    backend = RetryBackend(failing.backend, 2, rate_limit_retries=30, rng=random.Random(0), sleep=failing.sleep)
     with pytest.raises(BackendUnavailable):
         asyncio.run(backend.complete(request()))
     assert failing.waits_s == pytest.approx([0.5, 1.0], rel=0.25)
 
 
-@pytest.mark.parametrize("settings", [{"retries": -1}, {"told_retries": -1}], ids=str)
+@pytest.mark.parametrize("settings", [{"retries": -1}, {"rate_limit_retries": -1}], ids=str)
 def test_negative_retries_are_refused(settings: dict[str, int]) -> None:
     with pytest.raises(ConfigError, match="retries is -1"):
         RetryBackend("lexicon", **settings)

@@ -1,31 +1,22 @@
-"""Sounds for each state of each vibrating object: found or synthesized, chosen, looped, and converted into vibration.
+"""The loops of each state of each vibrating object: its sound, made a seamless loop and converted into vibration.
 
-Equal work is done once: states with equal requests share the sound, and states with equal conversions share the loops.
-A loop of an earlier bundle is reused if its fingerprint is unchanged.
+States with equal conversions share the loops. A loop of an earlier bundle is reused if its fingerprint is unchanged.
 """
 
 from __future__ import annotations
 
 import asyncio
 import os
-from collections.abc import Callable, Collection, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Mapping, Sequence
 from contextvars import ContextVar
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from threading import Lock
 
-import numpy as np
-
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.encoding import as_stored, sound_digest
+from scene2hap.audio.encoding import as_stored
 from scene2hap.audio.haptic_loop import HapticLoop
-from scene2hap.audio.loops import middle_of, without_silent_ends
-from scene2hap.audio.protocol import NamedSounds, follows_target
-from scene2hap.audio.recorded_runs import recorded_runs
+from scene2hap.audio.protocol import follows_target
 from scene2hap.audio.scene_loops import Plan, SourceClip, felt_loop, plan_scene
-from scene2hap.audio.select import Choice, explain_choice
-from scene2hap.audio.sources.chain import gather
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import (
     OWN_CLIP,
@@ -33,10 +24,9 @@ from scene2hap.baking.fingerprint import (
     converter_name,
     differences,
     made_by,
-    request_digests,
 )
-from scene2hap.baking.own_words import own_word
-from scene2hap.baking.recorded_times import NO_RUNS, Runs, runs_of, shown_runs
+from scene2hap.baking.recorded_times import runs_of
+from scene2hap.baking.sound_choice import EarlierLoops, SoundChooser, StateSound
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.bundle.edited_loops import LOOPS, is_edited, loop_digests
 from scene2hap.bundle.pending_corrections import CORRECTIONS, corrections_digest
@@ -44,7 +34,7 @@ from scene2hap.common.blas_threads import one_blas_thread
 from scene2hap.common.counted import first_of
 from scene2hap.common.warning import warn_of
 from scene2hap.errors import AudioError
-from scene2hap.haptics import ActuatorProfile, ObjectHaptics, SourceState, VibrationDescription
+from scene2hap.haptics import ActuatorProfile, ObjectHaptics
 
 Progress = Callable[[str, str, int, int], None]
 """Called with (stage, step, number done, total number)."""
@@ -56,8 +46,6 @@ def no_progress(stage: str, step: str, n_done: int, n: int) -> None:
 
 Remade = Mapping[str, Mapping[str, tuple[str, ...]]]
 """Reasons why each loop was made, by id and state: parts of its fingerprint, or "new"."""
-
-_REPEATED_S = 3.0
 _MOST_THREADS = 4
 """Assumed: each thread holds the spectra of a clip, some 100 MB, and Python code runs in one thread at a time."""
 N_THREADS: ContextVar[int] = ContextVar("N_THREADS", default=0)
@@ -67,43 +55,12 @@ _UNCHANGED: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
-class EarlierLoops:
-    """Loops and sounds of an earlier bundle, and limits on their reuse.
-
-    chosen_again : objects whose sounds are chosen again; any_source : keep sounds even if the sound sources have
-    changed; any_making : leave loops without a fingerprint unchanged.
-    """
-
-    loops: Mapping[str, Mapping[str, HapticLoop]] = field(default_factory=dict)
-    choices: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
-    chosen_again: Collection[str] = ()
-    any_source: bool = True
-    any_making: bool = True
-
-
-@dataclass(frozen=True)
 class Sounds:
     """Loops by object and state, the reason for each choice of a sound, and the reason why each loop was made."""
 
     loops: dict[str, Mapping[str, HapticLoop]] = field(default_factory=dict)
     choices: dict[str, dict[str, str]] = field(default_factory=dict)
     remade: dict[str, dict[str, tuple[str, ...]]] = field(default_factory=dict)
-
-
-@dataclass(frozen=True, eq=False)
-class _Part:
-    """One state of one source, with its sound. Without a sound, its earlier loop stays unchanged. `runs` are its
-    recorded start and stop."""
-
-    object_id: str
-    state: SourceState
-    group: str
-    clip: AudioClip | None
-    request: Mapping[str, str]
-    earlier: HapticLoop | None
-    keep: bool = False
-    pitch_hz: float | None = None
-    runs: Runs = NO_RUNS
 
 
 async def make_loops(
@@ -123,7 +80,7 @@ async def make_loops(
     """
     wanted = [(key, haptics, state) for key, haptics in objects.items() if haptics.vibrates for state in haptics.states]
     before, tell = earlier or EarlierLoops(), progress or no_progress
-    sounds, chooser = Sounds(), _Chooser(config, overrides, before, inferred or objects, names or {})
+    sounds, chooser = Sounds(), SoundChooser(config, overrides, before, inferred or objects, names or {})
     parts = []
     for done, (object_id, haptics, state) in enumerate(wanted, start=1):
         part, why = await asyncio.to_thread(chooser.part, object_id, haptics, state)
@@ -154,7 +111,7 @@ async def make_loops(
     return sounds
 
 
-def _warn_of_other_actuator(parts: Sequence[_Part], actuator: ActuatorProfile) -> None:
+def _warn_of_other_actuator(parts: Sequence[StateSound], actuator: ActuatorProfile) -> None:
     """Warn of locked loops that were made for another actuator. Warns: BundleWarning."""
     now = actuator_digest(actuator)
     others = dict.fromkeys(
@@ -195,13 +152,13 @@ def _has_samples_of(earlier: HapticLoop, now: HapticLoop | None) -> bool:
 
 
 async def _made(
-    parts: Sequence[_Part], plans: Sequence[Plan], config: BakeConfig, tell: Progress
+    parts: Sequence[StateSound], plans: Sequence[Plan], config: BakeConfig, tell: Progress
 ) -> list[tuple[HapticLoop, tuple[str, ...]]]:
     """Return the loops of each part, and why they were made. Several threads work at once, one per loop."""
     n_threads = N_THREADS.get() or min(_MOST_THREADS, os.cpu_count() or 1)
     maker, gate = _Maker(config), asyncio.Semaphore(n_threads)
 
-    async def one(part: _Part, plan: Plan | None) -> tuple[HapticLoop, tuple[str, ...]]:
+    async def one(part: StateSound, plan: Plan | None) -> tuple[HapticLoop, tuple[str, ...]]:
         if part.clip is None or plan is None:
             assert part.earlier is not None  # a part without a clip has an earlier loop
             return part.earlier, _UNCHANGED
@@ -228,101 +185,6 @@ def _is_same(states: Mapping[str, HapticLoop], others: Mapping[str, HapticLoop])
     return list(states) == list(others) and all(states[name] is others[name] for name in states)
 
 
-class _Chooser:
-    """Find the sound of each state: a person's own, the earlier bundle's, or the best one from the sources."""
-
-    def __init__(
-        self,
-        config: BakeConfig,
-        overrides: Mapping[str, Override],
-        earlier: EarlierLoops,
-        inferred: Mapping[str, ObjectHaptics],
-        names: Mapping[str, str],
-    ) -> None:
-        self._config, self._overrides, self._earlier, self._inferred = config, overrides, earlier, inferred
-        self._names = names
-        self._chosen: dict[VibrationDescription, tuple[AudioClip, str, Runs]] = {}
-        self._clips: dict[tuple[VibrationDescription, str], AudioClip] = {}
-        self._own: dict[str, tuple[AudioClip, Runs]] = {}
-
-    def part(self, object_id: str, haptics: ObjectHaptics, state: SourceState) -> tuple[_Part, str]:
-        """Return the state with its sound, and the reason for the choice ("" without a choice)."""
-        override, group = self._overrides.get(object_id), haptics.object_category
-        before = self._earlier.loops.get(object_id, {}).get(state.name)
-        if override is not None and override.locked and before is not None:
-            why = self._earlier.choices.get(object_id, {}).get(state.name, "")
-            return _Part(object_id, state, group, None, {}, before), why
-        if override is not None and override.clip is not None:
-            if object_id not in self._own:
-                self._own[object_id] = _own(override.clip)
-            clip, runs = self._own[object_id]
-            request = {"words": OWN_CLIP, "sources": OWN_CLIP}
-            shown = shown_runs(runs, state, before)
-            return _Part(object_id, state, group, clip, request, before, override.keep, runs=shown), ""
-        before_corrected = self._inferred.get(object_id, haptics)
-        as_inferred = next((one for one in before_corrected.states if one.name == state.name), state)
-        description = self._description(object_id, before_corrected, as_inferred)
-        request = request_digests(description, self._config)
-        if before is not None and object_id not in self._earlier.chosen_again:
-            why = self._earlier.choices.get(object_id, {}).get(state.name, "")
-            if not before.fingerprint:
-                repeated = None if self._earlier.any_making else _prepared(_repeated(before.audible))
-                return _Part(object_id, state, group, repeated, request, before, runs=runs_of(before)), why
-            if self._holds(before.fingerprint, request):
-                clip = before.source or _prepared(_repeated(before.audible))  # None if the file was removed
-                request = {**request, "sources": before.fingerprint.get("sources", "")}
-                return _Part(object_id, state, group, clip, request, before, runs=runs_of(before)), why
-        if (name := self._names.get(object_id, "")).casefold() in self._named:
-            description = replace(description, name=name)
-        if description not in self._chosen:
-            choice = self._choose(object_id, description)
-            runs = choice.start_up, choice.wind_down
-            # Objects that differ in their authors' names alone share the loops of a sound that suits both.
-            key = replace(description, own_word="", name=""), sound_digest(choice.winner)
-            self._chosen[description] = self._clips.setdefault(key, _prepared(choice.winner)), str(choice), runs
-        clip, why, runs = self._chosen[description]
-        return _Part(object_id, state, group, clip, request, before, runs=shown_runs(runs, state, before)), why
-
-    @cached_property
-    def _named(self) -> frozenset[str]:
-        """Names of sounds. Descriptions leave out all other names, so that objects of one type share a search."""
-        found: set[str] = set()
-        for source in self._config.audio:
-            if isinstance(source, NamedSounds):
-                # Plug-ins may raise anything. `gather` warns of a source that fails, and queries the next one.
-                with suppress(Exception):
-                    found |= source.names()
-        return frozenset(found)
-
-    def _holds(self, fingerprint: Mapping[str, str], request: Mapping[str, str]) -> bool:
-        parts = ("words",) if self._earlier.any_source else ("words", "sources")
-        return all(fingerprint.get(part) == request[part] for part in parts)
-
-    def _choose(self, object_id: str, description: VibrationDescription) -> Choice:
-        config = self._config
-        candidates = gather(object_id, description, config.audio, enough=config.enough_candidates)
-        try:
-            return explain_choice(candidates)
-        except AudioError as cause:
-            raise AudioError(
-                f"no sound for {object_id!r} ({description.keywords!r}): {cause} Or add the synthesizer (kind 'synth') "
-                "as the last source."
-            ) from cause
-
-    def _description(self, object_id: str, haptics: ObjectHaptics, state: SourceState) -> VibrationDescription:
-        return VibrationDescription(
-            object_category=haptics.object_category,
-            state=state.name,
-            sentence=state.sentence,
-            keywords=state.keywords,
-            intensity=state.intensity,
-            size_m=haptics.estimated_size_m,
-            material=haptics.material_category,
-            seed=self._config.seed,
-            own_word=own_word(self._names.get(object_id, ""), haptics.object_category),
-        )
-
-
 class _Maker:
     """Make the loops of each sound; equal ones are made once. Threads may share it."""
 
@@ -334,7 +196,7 @@ class _Maker:
         self._lock = Lock()
         self._converter = converter_name(config.tactile)
 
-    def loop(self, part: _Part, clip: AudioClip, plan: Plan) -> tuple[HapticLoop, tuple[str, ...]]:
+    def loop(self, part: StateSound, clip: AudioClip, plan: Plan) -> tuple[HapticLoop, tuple[str, ...]]:
         """Return the loops of a state, and why they were made; () if the earlier ones were reused."""
         key = id(clip), plan
         with self._lock:
@@ -343,7 +205,7 @@ class _Maker:
             return self._loop(part, clip, plan, key)
 
     def _loop(
-        self, part: _Part, clip: AudioClip, plan: Plan, key: tuple[int, Plan]
+        self, part: StateSound, clip: AudioClip, plan: Plan, key: tuple[int, Plan]
     ) -> tuple[HapticLoop, tuple[str, ...]]:
         if key not in self._names:
             self._names[key] = made_by(clip, self._converter, plan)
@@ -367,14 +229,14 @@ class _Maker:
         return replace(_as_of(part, self._made[key], fingerprint), source=source), reasons
 
 
-def _is_edited_beside_others(part: _Part, reasons: tuple[str, ...]) -> bool:
+def _is_edited_beside_others(part: StateSound, reasons: tuple[str, ...]) -> bool:
     """Return True for a loop that a person edited by hand, if only the places of other sources have changed."""
     if reasons != ("plan",) or part.earlier is None or not is_edited(part.earlier):
         return False
     return part.earlier.fingerprint.get(CORRECTIONS, "") == part.request[CORRECTIONS]
 
 
-def _as_of(part: _Part, loop: HapticLoop, fingerprint: Mapping[str, str]) -> HapticLoop:
+def _as_of(part: StateSound, loop: HapticLoop, fingerprint: Mapping[str, str]) -> HapticLoop:
     start_up, wind_down = part.runs
     return replace(loop, fingerprint=fingerprint, start_up=start_up, wind_down=wind_down)
 
@@ -405,23 +267,3 @@ def _pitch_hz(object_id: str, state: str, overrides: Mapping[str, Override], con
 def in_band_hz(wanted_hz: float, actuator: ActuatorProfile) -> float:
     """Return the frequency nearest to a pitch that is in the actuator's band [Hz]."""
     return min(max(wanted_hz, actuator.min_frequency_hz), actuator.max_frequency_hz)
-
-
-def _own(clip: AudioClip) -> tuple[AudioClip, Runs]:
-    """Return the steady part of a person's clip, as stored in a bundle, and its recorded start and stop."""
-    if clip.is_vibration:
-        return _prepared(clip), NO_RUNS
-    found = recorded_runs(clip.samples, clip.sample_rate_hz, clip.loop)
-    steady = without_silent_ends(middle_of(clip.part(found.first, found.end)))
-    return as_stored(steady), (found.start_up, found.wind_down)
-
-
-def _prepared(clip: AudioClip) -> AudioClip:
-    """Return the part of a clip from which loops are cut, rounded as in a bundle, so that loops are reproducible."""
-    return as_stored(clip if clip.is_vibration else middle_of(clip))
-
-
-def _repeated(loop: AudioClip) -> AudioClip:
-    """Repeat a loop into a clip that is long enough to be cut again: at least twice, and for three seconds."""
-    times = max(2, int(np.ceil(_REPEATED_S / loop.duration_s)))
-    return replace(loop, samples=np.tile(loop.samples, times))
