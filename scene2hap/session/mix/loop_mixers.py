@@ -41,7 +41,8 @@ class Clock:
     """
 
     def __init__(self) -> None:
-        self.position = self.updated_at = 0
+        self.position: int = 0
+        self.updated_at: int = 0
 
     @property
     def now(self) -> int:
