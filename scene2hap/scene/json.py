@@ -23,7 +23,7 @@ from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.copies import as_copy, material_names
 from scene2hap.scene.files import HABITAT_SUFFIX
-from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject, with_relative_heights
+from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject, require_placed, with_relative_heights
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import Box, DominantSurface, Geometry, TriMesh
 from scene2hap.scene.surface import plate_sizes
@@ -127,6 +127,7 @@ def from_document(document: dict[str, Any]) -> SceneData:
         problem = checks.first_problem(cause)
         raise SceneError(f"scene field {problem.place or '(top)'}: {problem.reason}.") from cause
     for item in scene.objects:
+        require_placed(item)
         _require_plausible_thickness(item)
     rows = document["objects"]
     _warn_of_slips("the scene", _SCENE_FIELDS, [document])

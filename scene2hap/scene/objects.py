@@ -76,7 +76,7 @@ class Contact:
             normal = checks.vector("normal", self.normal, "-", size=3, error=SceneError)
             length = math.hypot(*normal)
             if abs(length - 1.0) > UNIT_TOLERANCE:
-                normal = tuple(part / length for part in normal) if length >= LEAST_LENGTH else ()
+                normal = tuple(part / length for part in normal) if LEAST_LENGTH <= length < math.inf else ()
             object.__setattr__(self, "normal", normal or None)
         if self.area_m2 is not None:
             area = checks.number("area_m2", self.area_m2, "m2", at_least=0.0, error=SceneError)
@@ -193,12 +193,7 @@ class SceneObject:
                 f"have it; files hold none. Give another id, as {checks.represented(writable(self.id))}."
             )
         # Squares and cubes of larger coordinates lose their digits, or exceed the largest number.
-        most_m = max(self.geometry.mesh.reach_m, *map(abs, self.pose.position_m))
-        if most_m > limits.MAX_COORDINATE_M:
-            raise SceneError(
-                f"object {checks.represented(self.id)} is placed or scaled beyond {limits.MAX_COORDINATE_M:g} m, at "
-                f"{most_m:g} m; check its pose and its geometry."
-            )
+        _require_bounded(self.id, self.geometry.mesh.reach_m)
         height = checks.number("relative_height_m", self.relative_height_m, "m", error=SceneError)
         object.__setattr__(self, "relative_height_m", height)
         materials = checks.texts(f"material_names of object {self.id!r}", self.material_names, error=SceneError)
@@ -256,6 +251,22 @@ class SceneObject:
         at = [checks.vector("point_m", point_m, "m", size=3, error=SceneError)]
         own, theirs = (tuple(pose.to_own(at)[0].tolist()) for pose in (self.pose, other.pose))
         return replace(self, hinge=Hinge(other.id, own, theirs))
+
+
+def require_placed(item: SceneObject) -> None:
+    """Bound an object's position as in scene files. A session does not: a game may park an object far away.
+
+    Raises: SceneError.
+    """
+    _require_bounded(item.id, max(map(abs, item.pose.position_m)))
+
+
+def _require_bounded(object_id: str, most_m: float) -> None:
+    if most_m > limits.MAX_COORDINATE_M:
+        raise SceneError(
+            f"object {checks.represented(object_id)} is placed or scaled beyond {limits.MAX_COORDINATE_M:g} m, at "
+            f"{most_m:g} m; check its pose and its geometry."
+        )
 
 
 def with_known_up(item: SceneObject, up_axis: UpAxis) -> SceneObject:

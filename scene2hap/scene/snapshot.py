@@ -25,6 +25,7 @@ from scene2hap.scene.objects import (
     SceneData,
     SceneObject,
     UpAxis,
+    require_placed,
     unknown_object,
     with_known_up,
     with_relative_heights,
@@ -126,6 +127,7 @@ class SceneSnapshot(SceneData):
         keyed = []
         for item in objects:
             _require_object(item)
+            require_placed(item)
             keyed.append(as_copy(item) if not item.instance_key and item.appearance is None else item)
         if contacts is not None:
             contacts = checks.items("contacts", contacts, at_most=_MOST_CONTACTS, error=SceneError)

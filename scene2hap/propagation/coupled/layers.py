@@ -40,8 +40,6 @@ from scene2hap.scene.pose import Pose
 UNEVEN_M = 1e-3
 """Distance of two surfaces that touch at their highest points [m]. Assumed; flatness tolerances of finished floors are
 2 mm over 0.1 m (DIN 18202, from memory)."""
-_SAG_PER_FORCE = 0.0116
-"""w D / (F a^2) of a force in the middle."""
 _OPPOSITE = 0.9  # Part of one normal along the other.
 _SLACK = 1e-6  # of a side
 
@@ -110,9 +108,16 @@ def pressed_through(
 
 def sag_m(plate: Plate, force_n: float) -> float:
     """Return the sag of a layer between its ends under a force and its weight [m]."""
+    by_weight_m, per_n = _sags(plate)
+    return by_weight_m + per_n * force_n
+
+
+def _sags(plate: Plate) -> tuple[float, float]:
+    """Return the sag of a layer between its ends under its weight [m], and by each newton in its middle [m/N]."""
     side = min(plate.extent_m)
     weight_n_m2 = STANDARD_GRAVITY_M_S2 * plate.material.density_kg_m3 * plate.thickness_m
-    return side**2 / plate.bending_stiffness_nm * (_SAG_PER_FORCE * force_n + 0.00406 * weight_n_m2 * side**2)
+    yielding = side**2 / plate.bending_stiffness_nm
+    return 0.00406 * weight_n_m2 * side**2 * yielding, 0.0116 * yielding
 
 
 @lru_cache(maxsize=4096)
@@ -135,8 +140,8 @@ def _layer(network: ContactNetwork, object_id: str) -> Plate | None:
 @lru_cache(maxsize=4096)
 def _sagging_n(plate: Plate) -> float:
     """Return the force under which a layer sags onto its support [N]; 0 or less if its weight suffices."""
-    per_n = _SAG_PER_FORCE * min(plate.extent_m) ** 2 / plate.bending_stiffness_nm
-    return (UNEVEN_M - sag_m(plate, 0.0)) / per_n
+    by_weight_m, per_n = _sags(plate)
+    return (UNEVEN_M - by_weight_m) / per_n
 
 
 @dataclass(frozen=True, eq=False)

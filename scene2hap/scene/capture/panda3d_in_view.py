@@ -1,4 +1,4 @@
-"""Which triangles p3tinydisplay can draw to a pixel: the others are left out, since it takes time for each corner."""
+"""Which triangles p3tinydisplay can draw to a pixel. The others are left out, since each corner takes it time."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def in_view(seen: Extents, camera: Camera) -> Bools:
     Triangles behind the eye or beside the picture are left out, and triangles whose corners all are in one row or
     column of pixels. The latter are most triangles of a finely meshed scene.
     """
-    # It scales so that the picture's last half pixel is never reached.
+    # p3tinydisplay scales so that the picture's last half pixel is never reached.
     edge = np.float32(camera.size_px - 0.5)
     scale = edge / np.float32(2 * camera.half)
     visible = seen.is_ahead

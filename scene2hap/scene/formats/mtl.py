@@ -32,6 +32,7 @@ MAX_LIBRARIES = 1_000
 """Most libraries that one OBJ file may name (assumed: a hundred times as many as exporters write)."""
 _WORD = re.compile(r"\S+")
 _COMMENT = re.compile(r"(?:^|\s)#.*")
+_NAMES = re.compile(r"\s*(?:[go]|map_\w+|mtllib|newmtl|usemtl)\s", re.IGNORECASE)
 _WORDS_AS_VALUES = ("-blendu", "-blendv", "-cc", "-clamp", "-imfchan", "-type")
 
 
@@ -111,8 +112,10 @@ class MtlLibraries:
 
 
 def without_comment(line: str) -> str:
-    """Return a line of an OBJ or MTL file without its comment. A name may contain the sign: `Chair#2`."""
-    return _COMMENT.sub("", line) if "#" in line else line
+    """Return a line of an OBJ or MTL file without its comment. A name may contain the sign (`Chair#2`), no number."""
+    if "#" not in line:
+        return line
+    return _COMMENT.sub("", line) if _NAMES.match(line) else line.partition("#")[0]
 
 
 def _blocks(text: str) -> Iterator[tuple[str, dict[str, str]]]:

@@ -14,7 +14,7 @@ from scene2hap.errors import UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.propagation.protocol import Body, ContactNetwork, placing_of
 from scene2hap.scene.geometry import Vector
-from scene2hap.scene.objects import VERTICAL, Contact, SceneObject, unknown_object
+from scene2hap.scene.objects import VERTICAL, Contact, SceneObject, unknown_object, with_known_up
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.present_scene.network import (
@@ -94,6 +94,7 @@ class SceneState:
 
     def add(self, item: SceneObject, haptics: ObjectHaptics | None) -> ContactChange:
         """Add an object. Raises: SceneError: its id is taken."""
+        item = with_known_up(item, self._scene.up_axis)
         body = self._body(item, haptics)
         change = self.graph.update({}, added=[item])
         self._put(item.id, item, haptics, body)

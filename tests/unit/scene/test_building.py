@@ -146,7 +146,7 @@ def test_a_surface_is_that_of_the_pose_and_the_geometry_in_the_scene() -> None:
     [
         lambda: SceneObject("rock", geometry=Box((3e6, 1, 1))),
         lambda: SceneObject("rock", geometry=TriMesh(np.eye(3) * 1e200, [[0, 1, 2]])),
-        lambda: SceneObject("rock", pose=Pose((0, 1e308, 0)), geometry=Box((1, 1, 1))),
+        lambda: SceneSnapshot.build([SceneObject("rock", pose=Pose((0, 1e308, 0)), geometry=Box((1, 1, 1)))]),
     ],
 )
 def test_coordinates_are_bounded(make: object) -> None:

@@ -35,6 +35,7 @@ def test_bounds_exclude_unused_vertices() -> None:
 def test_a_normal_of_a_contact_is_a_unit_vector_or_unknown() -> None:
     assert Contact("a", "b", (0, 0, 0), (0.0, 3.0, 4.0)).normal == pytest.approx((0.0, 0.6, 0.8))
     assert Contact("a", "b", (0, 0, 0), (0.0, 0.0, 0.0)).normal is None
+    assert Contact("a", "b", (0, 0, 0), (1.7e308, 1.7e308, 1.7e308)).normal is None  # no float has its length
     given = (0.0, 0.6, 0.8 + 1e-12)
     assert Contact("a", "b", (0, 0, 0), given).normal == given
 

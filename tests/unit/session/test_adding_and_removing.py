@@ -1,12 +1,13 @@
 """Adding and removing objects, sources and hands while a session plays; pauses."""
 
 import weakref
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from garbage import no_garbage_collection
-from scene2hap import HapticSession, MemorySink, Pose, Touch
+from scene2hap import Box, HapticSession, MemorySink, Pose, SceneObject, Touch
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import ConfigError, SceneError, SessionError, UnknownObject
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
@@ -32,8 +33,6 @@ def steepest(*frequencies_hz: float, amplitude: float = 0.3) -> float:
 def test_added_source_has_the_gains_of_an_initial_source() -> None:
     item, told, loop = fan()
     snapshot, bundle = table_with_two_phones()
-    from dataclasses import replace
-
     whole = replace(snapshot, objects=(*snapshot.objects, item))
     there = HapticSession(
         whole,
@@ -49,6 +48,37 @@ def test_added_source_has_the_gains_of_an_initial_source() -> None:
     np.testing.assert_array_equal(frames[1].gains, frames[0].gains)
     assert frames[1].gain("left", "fan") > 0
     np.testing.assert_array_equal(added.render(RATE), there.render(RATE))
+
+
+def test_the_surface_of_an_added_object_is_measured_for_the_up_axis_of_the_scene() -> None:
+    """A cube on the table has its plate on top, wherever up is."""
+    snapshot, bundle = table_with_two_phones()
+    snapshot = replace(snapshot, up_axis="z")
+    cube = SceneObject("cube", pose=Pose((0.8, 0.82, 0.6)), geometry=Box((0.2, 0.2, 0.2)))
+    told = haptics("plastic", (0.2, 0.2, 0.005), "on")
+    whole = replace(snapshot, objects=(*snapshot.objects, cube))
+    there, added = (
+        HapticSession(
+            scene,
+            replace(bundle, snapshot=scene, objects=objects),
+            {**CONFIG, "propagation": "modal_plate", "prepare": "blocking"},
+        )
+        for scene, objects in ((whole, {**bundle.objects, "cube": told}), (snapshot, bundle.objects))
+    )
+    added.add(cube, told)
+    touch = Touch("left", "cube", (0.85, 0.75, 0.67))
+    frames = []
+    for s in (there, added):
+        assert s.wait_prepared()
+        frames.append(s.update(touches=[touch]))
+    assert frames[0].gain("left", "phone") > 0
+    np.testing.assert_array_equal(frames[1].gains, frames[0].gains)
+
+
+def test_a_scene_is_given_while_an_object_is_parked_far_away() -> None:
+    s, far = session(), Pose((0.0, -1e7, 0.0))
+    s.update({"phone": far}, touches=[ON_TABLE])
+    assert s.snapshot.object("phone").pose == far
 
 
 def test_the_others_play_on_without_a_click_as_sources_come_and_go() -> None:

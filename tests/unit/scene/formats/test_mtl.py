@@ -56,6 +56,14 @@ def test_a_comment_begins_before_a_word_and_not_within_a_name(tmp_path: Path) ->
     assert [looks(item).materials[0].texture is None for item in (first, second)] == [True, False]
 
 
+def test_a_comment_may_begin_right_behind_a_number(tmp_path: Path) -> None:
+    (tmp_path / "scene.mtl").write_text("newmtl red\nKd 1 0 0#red\n")
+    numbers = "v 0 0 0#origin\nv 1 0 0\nv 0 1 0\n"
+    (tmp_path / "scene.obj").write_text(f"mtllib scene.mtl\n{numbers}usemtl red\nf 1 2 3#front\n")
+    (item,) = load_scene(tmp_path / "scene.obj", unit_m=1.0).objects
+    assert looks(item).materials[0].color_rgba == (1.0, 0.0, 0.0, 1.0)
+
+
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
 def test_names_of_materials_and_files_are_read_in_any_encoding(tmp_path: Path, encoding: str) -> None:
     (tmp_path / "Türe.png").write_bytes(image_file())
