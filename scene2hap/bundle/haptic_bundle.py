@@ -152,7 +152,7 @@ class HapticBundle(BundleContents):
                 f"{object_id!r} does not vibrate; {', '.join(vain)} will change nothing until it does. Write "
                 f"override({object_id!r}, vibrates=True), or `scene2hap edit BUNDLE vibrate {object_id}`."
             )
-        everywhere = [name for name in BY_STATE if isinstance(changes[name], int | float)]
+        everywhere = [name for name in BY_STATE if not isinstance(changes[name], Mapping | None)]
         if state is not None and everywhere and len(self.objects[object_id].states) > 1:
             warn_of(
                 f"state={state!r} is the state of {object_id!r} at the start; {', '.join(everywhere)} changes every "

@@ -17,7 +17,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import reduce
 from operator import add
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,9 +30,9 @@ from scene2hap.haptics import Bands
 from scene2hap.propagation.auto_level import peak_level_db
 from scene2hap.propagation.auto_rungs import Choice, PlateCase, body_of
 from scene2hap.propagation.bands.sampling import SPACING
-from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw, GivenLaw
 from scene2hap.propagation.coupled.coupling import Joint
-from scene2hap.propagation.coupled.hand import Hand
+from scene2hap.propagation.coupled.hand import GivenHand, Hand
 from scene2hap.propagation.coupled.substructuring import Assembly, CoupledField, assemble
 from scene2hap.propagation.domain import OutsideDomain, floored_loss, off_zero
 from scene2hap.propagation.elastic_body import ElasticBody
@@ -73,6 +73,18 @@ class AutoFidelity(PhysicalModel):
     hand: Hand | None = None
     kind: Literal["auto"] = "auto"
     follows_outlines: ClassVar[bool] = True
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            tolerance_db: float = 1.0,
+            loss_floor: float = 0.01,
+            contact: GivenLaw = ...,
+            outside_domain: OutsideDomain = "warn",
+            hand: GivenHand = None,
+            kind: Literal["auto"] = "auto",
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         checks.number("tolerance_db", self.tolerance_db, "dB", at_least=0.1, at_most=6.0, error=ConfigError)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,8 +18,8 @@ from scene2hap.propagation.bodies.infinite_body import (
     spreading,
 )
 from scene2hap.propagation.bodies.rigid import RigidMotion
-from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.hand import Hand
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw, GivenLaw
+from scene2hap.propagation.coupled.hand import GivenHand, Hand
 from scene2hap.propagation.domain import OutsideDomain, as_frequencies, warn_if_thick
 from scene2hap.propagation.physical_model import PhysicalModel
 from scene2hap.propagation.plate import Plate
@@ -49,6 +49,16 @@ class InfinitePlate(PhysicalModel):
     outside_domain: OutsideDomain = "warn"
     hand: Hand | None = None
     kind: Literal["infinite_plate"] = "infinite_plate"
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            contact: GivenLaw = ...,
+            outside_domain: OutsideDomain = "warn",
+            hand: GivenHand = None,
+            kind: Literal["infinite_plate"] = "infinite_plate",
+        ) -> None: ...
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> InfiniteBody | RigidMotion:
         """Return a plate as a body for coupling at any frequency; a plate without waves (`WAVELESS_HZ`) is rigid."""

@@ -17,7 +17,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import count
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 from numpy.polynomial.polynomial import polyval
@@ -30,8 +30,8 @@ from scene2hap.common.warning import warn_of
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation.bodies.infinite_body import InfiniteBody, SplitBody
 from scene2hap.propagation.bodies.lattice_body import lattice_body
-from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.hand import Hand
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw, GivenLaw
+from scene2hap.propagation.coupled.hand import GivenHand, Hand
 from scene2hap.propagation.domain import OutsideDomain, as_frequencies, floored_loss, off_zero, warn_if_thick
 from scene2hap.propagation.elastic_body import ElasticBody
 from scene2hap.propagation.lattice.bending_lattice import LONGEST, MOST_NODES, n_nodes_of, narrow_side_m
@@ -76,6 +76,18 @@ class MassSpringDamper(PhysicalModel):
     hand: Hand | None = None
     kind: Literal["mass_spring_damper"] = "mass_spring_damper"
     follows_outlines: ClassVar[bool] = True
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            resolution: int = 8,
+            loss_floor: float = 0.01,
+            contact: GivenLaw = ...,
+            outside_domain: OutsideDomain = "warn",
+            hand: GivenHand = None,
+            kind: Literal["mass_spring_damper"] = "mass_spring_damper",
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         cells = checks.whole("resolution", self.resolution, "cells", at_least=4, at_most=FINEST, error=ConfigError)

@@ -14,7 +14,7 @@ Source: Cremer, Heckl, Petersson, Structure-Borne Sound, for the modal sum and c
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 from scene2hap.common.calls import clear_construction
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.bodies.modal_body import modal_body
-from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.hand import Hand
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw, GivenLaw
+from scene2hap.propagation.coupled.hand import GivenHand, Hand
 from scene2hap.propagation.domain import OutsideDomain, floored_loss, off_zero
 from scene2hap.propagation.elastic_body import ElasticBody
 from scene2hap.propagation.modal.modes import MARGIN, plate_modes
@@ -51,6 +51,17 @@ class ModalPlate(PhysicalModel):
     outside_domain: OutsideDomain = "warn"
     hand: Hand | None = None
     kind: Literal["modal_plate"] = "modal_plate"
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            loss_floor: float = 0.01,
+            contact: GivenLaw = ...,
+            outside_domain: OutsideDomain = "warn",
+            hand: GivenHand = None,
+            kind: Literal["modal_plate"] = "modal_plate",
+        ) -> None: ...
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
         """Return a plate as a body for coupling up to `max_frequency_hz` [Hz]; see `modal_body`."""

@@ -14,6 +14,7 @@ from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.common import checks
 from scene2hap.common.arrays import Floats, floats
+from scene2hap.common.counted import first_of
 from scene2hap.devices.whole_frames import MAX_RENDERED_FRAMES
 from scene2hap.errors import BundleError, SceneError, SessionError
 from scene2hap.haptics import ObjectHaptics
@@ -55,13 +56,20 @@ def given_poses(moved: object) -> dict[str, Pose]:
     )
 
 
-def given_gains(gains: object, n_sources: int, n_bands: int) -> Floats:
-    """Return gains (..., n_sources, n_bands), also those of a frame. Raises: SessionError: another shape."""
-    given = floats("gains", gains.gains if isinstance(gains, HapticFrame) else gains, "-", error=SessionError)
-    if given.shape[-2:] != (n_sources, n_bands):
+def given_gains(gains: object, sources: tuple[str, ...], n_bands: int) -> Floats:
+    """Return gains (..., n_sources, n_bands), also those of a frame. Raises: SessionError: another shape or sources."""
+    if isinstance(gains, HapticFrame):
+        if gains.sources != sources:
+            raise SessionError(
+                f"the frame has other sources ({first_of(gains.sources, 5)}) than the session now "
+                f"({first_of(sources, 5)}). Give it before a source is added or removed, or take the next update's."
+            )
+        gains = gains.gains
+    given = floats("gains", gains, "-", error=SessionError)
+    if given.shape[-2:] != (len(sources), n_bands):
         raise SessionError(
-            f"gains has shape {given.shape}; its last two axes must be the {n_sources} sources and {n_bands} bands of "
-            "the session, as in frame.gains and in the result of `would_feel`."
+            f"gains has shape {given.shape}; its last two axes must be the {len(sources)} sources and {n_bands} bands "
+            "of the session, as in frame.gains and in the result of `would_feel`."
         )
     return given
 

@@ -471,9 +471,9 @@ class HapticSession:
         Parameters: gains : (..., n_sources, n_bands), of a frame (or the frame) or of `would_feel`.
         Returns: (..., n_sources) [dB]; -inf where nothing arrives, and until the loops of an added source are prepared;
         nan for a source whose loop has no known level.
-        Raises: SessionError: gains of another shape.
+        Raises: SessionError: gains of another shape, or a frame of other sources.
         """
-        return self._hand_frames.over_threshold_db(given_gains(gains, len(self.source_ids), self.config.bands.n_bands))
+        return self._hand_frames.over_threshold_db(given_gains(gains, self.source_ids, self.config.bands.n_bands))
 
     @overload
     def plot_felt(

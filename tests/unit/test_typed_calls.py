@@ -20,11 +20,15 @@ import scene2hap
 from scene2hap import (
     ActuatorProfile,
     AudioClip,
+    AutoFidelity,
     BakeConfig,
     Bands,
     Box,
     Contact,
     HapticSession,
+    InfinitePlate,
+    MassSpringDamper,
+    ModalPlate,
     ObjectHaptics,
     Outline,
     Plate,
@@ -41,6 +45,8 @@ from scene2hap import (
     UserProfile,
     bake,
 )
+from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.hand import PALM
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
 from scene2hap.session.config import SkipConfig
 from scene2hap.session.user_profile import LevelAndLimit
@@ -71,6 +77,13 @@ def test_vectors_are_arrays_lists_or_any_three_numbers() -> None:
     )
     assert RigidBody(1.0, SINGLE) == RigidBody(1, as_list)
     assert ObjectHaptics("cup", "steel", None, SINGLE, "", False).estimated_size_m == EXACT
+
+
+def test_hands_and_contact_laws_of_models_are_objects_settings_or_names() -> None:
+    soft = {"tip_radius_m": 0.01}
+    assert ModalPlate(hand="palm") == ModalPlate(hand=PALM) == ModalPlate(hand=vars(PALM))
+    assert MassSpringDamper(hand="palm", contact=soft).contact == ContactLaw(**soft)
+    assert InfinitePlate(hand="palm").hand == AutoFidelity(hand="palm").hand == PALM
 
 
 def test_tables_are_arrays_of_any_type_or_lists() -> None:

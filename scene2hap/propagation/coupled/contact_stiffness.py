@@ -88,8 +88,12 @@ def contact_modulus_pa(a: Material | None, b: Material | None) -> complex:
     )
 
 
-def checked_law(contact: ContactLaw | Mapping[str, Any]) -> ContactLaw:
-    """Convert a setting to a law: a `ContactLaw`, or its parameters, such as a table of TOML. Raises: ConfigError."""
+GivenLaw = ContactLaw | Mapping[str, Any]
+"""A law of contact, or its settings, such as a table of TOML."""
+
+
+def checked_law(contact: GivenLaw) -> ContactLaw:
+    """Convert a setting to a law. Raises: ConfigError."""
     if isinstance(contact, ContactLaw):
         return contact
     try:

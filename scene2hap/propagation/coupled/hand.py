@@ -83,8 +83,12 @@ Source: Hajian, Howe, Identification of the mechanical impedance at the human fi
 HANDS = {"palm": PALM, "fingertip": FINGERTIP}
 
 
-def checked_hand(hand: Hand | Mapping[str, Any] | str | None) -> Hand | None:
-    """Convert a setting to a hand: a `Hand`, its name in `HANDS`, its parameters, or None. Raises: ConfigError."""
+GivenHand = Hand | Mapping[str, Any] | str | None
+"""A hand, its settings, its name in `HANDS`, or None."""
+
+
+def checked_hand(hand: GivenHand) -> Hand | None:
+    """Convert a setting to a hand. Raises: ConfigError."""
     if hand is None or isinstance(hand, Hand):
         return hand
     if isinstance(hand, str) and hand in HANDS:

@@ -21,11 +21,13 @@ from scene2hap.scene.plausibility.resting import (
     FEW,
     FLOOR_FLATNESS,
     floating_inside,
+    floor_of,
     misplaced,
     misplaced_room,
     resting_share,
 )
 from scene2hap.scene.plausibility.units import implausible
+from scene2hap.scene.shapes import Box
 
 # The up axis is doubted if at least this share of objects rests along the other axis. This share must also be this many
 # times the share along the up axis. Tuned: six scenes by others have 0.59-0.95 along the right axis, 1.3 to 4.5 times
@@ -82,7 +84,7 @@ def findings(scene: SceneData) -> Iterator[Finding]:
         return
     room = tuple(misplaced_room(scene, boxes, ids, up))
     if not room and (len(ids) >= FEW or _has_level_ground(scene, boxes, up)):
-        misread = _misread(boxes, ids, up, resting)
+        misread = _misread(scene, boxes, up, resting)
         if misread is not None:
             yield misread
             return
@@ -91,28 +93,35 @@ def findings(scene: SceneData) -> Iterator[Finding]:
     yield from room or misplaced(scene, boxes, ids, up)
 
 
-def _misread(boxes: Floats, ids: tuple[str, ...], up: int, resting: float) -> Finding | None:
-    """Return the finding that most objects would rest if sizes or poses had another meaning, None if they would not."""
-    raised = boxes.copy()
-    raised[..., up] += np.ptp(boxes[..., up], axis=1)[:, None] / 2
-    readings: tuple[tuple[Kind, Floats, str, str], ...] = (
+def _misread(scene: SceneData, boxes: Floats, up: int, resting: float) -> Finding | None:
+    """Return the finding that most objects would rest if sizes or poses of a `Box` had another meaning, None if they
+    would not. Meshes are as they are."""
+    halves = np.ptp(boxes, axis=1, keepdims=True) / 2
+    halves *= np.array([isinstance(item.geometry, Box) for item in scene.objects])[:, None, None]
+    readings: list[tuple[Kind, Floats, str, str]] = [
         (
             "half-sizes",
-            2 * boxes - boxes.mean(axis=1, keepdims=True),
+            boxes + halves * [[-1.0], [1.0]],
             "if all were twice as large",
             "the sizes are probably half sizes, as physics engines have them. Double them: a Box has whole sizes",
-        ),
-        (
-            "bottoms",
-            raised,
-            "if each was raised by half its height",
-            "the positions are probably those of bottoms. Raise the poses: that of a Box is its middle",
-        ),
-    )
+        )
+    ]
+    if (
+        floor_of(boxes, up) is not None
+    ):  # Without a floor, middles at one height are as likely: a shaft with its wheels.
+        readings.append(
+            (
+                "bottoms",
+                boxes + halves * np.eye(3)[up],
+                "if each was raised by half its height",
+                "the positions are probably those of bottoms. Raise the poses: that of a Box is its middle",
+            )
+        )
     shares = [resting_share(read, up) for _, read, _, _ in readings]
     kind, _, how, remedy = readings[int(np.argmax(shares))]
     if max(shares) < max(_MOST_RESTING, _MORE_RESTING * resting):
         return None
+    ids = tuple(item.id for item in scene.objects)
     return Finding(kind, ids, f"{resting:.0%} of {len(ids)} objects rest on others, {max(shares):.0%} {how}; {remedy}.")
 
 

@@ -173,7 +173,7 @@ def _triangle_boxes(item: SceneObject) -> Floats:
     return np.stack([corners.min(axis=1), corners.max(axis=1)], axis=1)
 
 
-def _floor(boxes: Floats, up: int) -> tuple[int, Bools] | None:
+def floor_of(boxes: Floats, up: int) -> tuple[int, Bools] | None:
     """Return the row of the lowest floor, and a mask of the boxes above or below it; None without a floor.
 
     A plate that nothing reaches above is no floor but a ceiling, a roof or a table top.
@@ -215,7 +215,7 @@ def _ground_below(floor: SceneObject, boxes: Floats, up: int) -> Floats:
 
 def misplaced_room(scene: SceneData, boxes: Floats, ids: tuple[str, ...], up: int) -> Iterator[Finding]:
     """Find a room in which no object is on the floor, or in which most objects are sunk into the floor."""
-    found = _floor(boxes, up)
+    found = floor_of(boxes, up)
     if found is None or found[1].sum() < FEW:
         return
     floor, rows = found[0], np.flatnonzero(found[1])
@@ -240,7 +240,7 @@ def misplaced_room(scene: SceneData, boxes: Floats, ids: tuple[str, ...], up: in
 
 
 def _sunk(scene: SceneData, boxes: Floats, ids: tuple[str, ...], up: int) -> Iterator[Finding]:
-    found = _floor(boxes, up)
+    found = floor_of(boxes, up)
     if found is None:
         return
     floor, over = found

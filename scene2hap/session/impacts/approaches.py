@@ -17,7 +17,7 @@ from scene2hap.scene.geometry import Vector, cross, difference, dot
 from scene2hap.scene.pose import in_own, in_world
 from scene2hap.session.impacts.motion_track import LEAST_TRAVEL_M, STILL
 from scene2hap.session.impacts.relative_motion import RelativeMotion
-from scene2hap.session.impacts.slams import Slam, is_closed, may_enclose, slam_of
+from scene2hap.session.impacts.slams import Slam, is_closed, is_filled, may_enclose, slam_of
 from scene2hap.session.present_scene.scene_state import SceneState
 
 _PLANE_POINTS, _LEAST_WIDTH_M, _FLAT = 3, 0.003, 0.1
@@ -29,15 +29,15 @@ NO_JUNCTIONS: Mapping[str, Junction] = MappingProxyType({})
 class Approach(NamedTuple):
     """A point at which an object came nearer to another one: travel there [m], and the normal towards the other.
 
-    meets : tells whether the two meet there, which may take a millisecond; None for sure. is_contact : False for the
-    edge of a door, and for a drawer; is_seen : False where nothing at the point shows that the object is there.
+    meets : tells whether the two meet there, which may take a millisecond. is_contact : False for the edge of a door,
+    and for a drawer; is_seen : False where nothing at the point shows that the object is there.
     """
 
     other: str
     point_m: Vector
     came_m: Vector
     normal: Vector
-    meets: Callable[[], bool] | None = None
+    meets: Callable[[], bool]
     is_contact: bool = True
     is_seen: bool = True
 
@@ -60,20 +60,19 @@ class Approaches:
         slam = self._slam(object_id)
         holder = None if slam is None else slam.holder
         for other in sorted(met, key=lambda x: (x not in beside, x == holder, x)):
-            meets: Callable[[], bool] | None = None
             if slam is not None and other == holder:
                 point = in_world(slam.edge_m, pose)
                 came = self._motion.nearing_m(object_id, other, point, *between)
                 yield Approach(other, point, came, _direction(came), slam.meets, is_contact=False)
-                meets = slam.misses
             for side in _sides(met[other]):
                 point = _middle(side)
                 came = self._motion.nearing_m(object_id, other, point, *between)
                 # A pivot does not travel: links of a robot have no other contact with each other.
                 if math.hypot(*came) > LEAST_TRAVEL_M:
                     normal = self._normal(object_id, other, point, side, between[0])
-                    enters = meets or partial(self._enters, object_id, other, point, came, normal)
-                    yield Approach(other, point, came, normal, enters)
+                    enters = partial(self._enters, object_id, other, point, came, normal)
+                    meets = enters if slam is None or other != holder else slam.misses
+                    yield Approach(other, point, came, normal, meets)
 
     def in_holders(self, object_id: str, between: tuple[int, int]) -> Iterator[Approach]:
         """Approaches of a drawer to what encloses it."""
@@ -112,6 +111,7 @@ class Approaches:
             dot(difference(point_m, middle_m), normal) <= 0
             or self._gap_m(object_id, point_m, normal) >= -TOUCH_M - dot(came_m, normal)
             or not may_enclose(holder, item, self._motion.poses(object_id, other)[0])
+            or not is_filled(holder)
         )
 
     def _slam(self, object_id: str) -> Slam | None:

@@ -243,7 +243,7 @@ class Landings:
                     continue
                 if not self._stop.is_sudden(object_id, other, point, normal, [*steps, (now, time_s)]):
                     continue
-                if one.meets is None or one.meets():
+                if one.meets():
                     speed = self._closing.speed(object_id, other, point, normal, runs, onward, time_s)
                     best, most_m = Landing(object_id, other, point, speed), closing
         return best

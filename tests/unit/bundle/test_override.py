@@ -36,10 +36,11 @@ def test_state_override_is_the_state_that_a_session_begins_with(bundle: HapticBu
     assert HapticSession(changed).source("phone").state == "alarm"
 
 
-def test_a_number_beside_a_state_changes_all_states_and_warns(bundle: HapticBundle) -> None:
-    with pytest.warns(SceneWarning, match=r"every state.* write start_up_s=\{'alarm': 0\.9\}"):
-        changed = bundle.override("phone", state="alarm", start_up_s=0.9)
-    assert [one.start_up_s for one in changed.objects["phone"].states] == [0.9, 0.9]
+@pytest.mark.parametrize("number", [0.5, 1, np.float32(0.5)], ids=repr)
+def test_a_number_beside_a_state_changes_all_states_and_warns(bundle: HapticBundle, number: float) -> None:
+    with pytest.warns(SceneWarning, match=rf"every state.* write start_up_s=\{{'alarm': {float(number):g}\}}"):
+        changed = bundle.override("phone", state="alarm", start_up_s=number)
+    assert [one.start_up_s for one in changed.objects["phone"].states] == [float(number)] * 2
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         bundle.override("phone", state="alarm", start_up_s={"alarm": 0.9})

@@ -181,6 +181,10 @@ def test_level_is_that_of_the_mix_in_third_octaves(kind: str) -> None:
     assert s.over_threshold_db(0 * frame.gains).tolist() == [[-math.inf], [-math.inf]]
     with pytest.raises(SessionError, match=r"1 sources and 20 bands"):
         s.over_threshold_db(frame.gains.max(axis=2))
+    s.add(box("bell", (0.1, 0.01, 0.1), (0.0, 0.725, 0.4)), bundle.objects["phone"], {"ringing": loop})
+    s.remove("phone")
+    with pytest.raises(SessionError, match=r"other sources \(phone\) than the session now \(bell\)"):
+        s.over_threshold_db(frame)
 
 
 @pytest.mark.parametrize("bands", ["dominant", "third-octaves"])

@@ -339,6 +339,22 @@ def test_an_object_that_falls_inside_another_lands_on_its_bottom() -> None:
     assert session.stats.impacts == 1
 
 
+def test_a_hood_that_falls_over_a_post_of_a_merged_room_lands_on_it() -> None:
+    """The room's box is around it, and its rim reaches below the contact before it lands, as if it came out there."""
+    walls = [((0.0, -0.05, 0.0), (4.0, 0.1, 4.0)), ((-2.0, 1.25, 0.0), (0.05, 2.5, 4.0))]
+    room = SceneObject("room", geometry=boards(*walls, ((0.0, 0.25, 0.0), (0.2, 0.5, 0.2))))
+    rim = [((0.0, -0.1, z), (0.4, 0.2, 0.02)) for z in (-0.19, 0.19)]
+    hood = SceneObject(
+        "steel hood", pose=Pose((0.0, 0.9, 0.0)), geometry=boards(((0.0, 0.3, 0.0), (0.4, 0.6, 0.4)), *rim)
+    )
+    scene = SceneSnapshot.build([room, hood])
+    session = HapticSession(scene, bake(scene))
+    for frame in range(-10, 60):
+        session.update({"steel hood": Pose((0.0, max(0.5, 0.9 - 4.9 * max(0.0, frame / 90) ** 2), 0.0))})
+        session.render_s(1 / 90)
+    assert session.stats.impacts == 1
+
+
 def test_an_object_that_is_slid_to_its_place_on_a_table_does_not_slam() -> None:
     """Nothing encloses it."""
     table = SceneObject("wooden table", pose=Pose((0.0, 0.375, 0.0)), geometry=Box((1.0, 0.75, 1.0)))
