@@ -95,9 +95,13 @@ def no_proxies(monkeypatch: pytest.MonkeyPatch) -> None:
 def kitchen_bundle(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of the demo kitchen's bundle, baked once. Tests that edit a bundle copy it."""
     from scene2hap import bake, load_scene
+    from scene2hap.audio.sources.synth import Synthesizer
     from scene2hap.demo import kitchen_path
+    from short_tones import SYNTHESIZED
 
-    return bake(load_scene(kitchen_path())).save(tmp_path_factory.mktemp("baked") / "kitchen.bundle")
+    with pytest.MonkeyPatch.context() as patch:  # a module with `short_tones` may be the first that needs the bundle
+        patch.setattr(Synthesizer, "find", SYNTHESIZED)
+        return bake(load_scene(kitchen_path())).save(tmp_path_factory.mktemp("baked") / "kitchen.bundle")
 
 
 @pytest.fixture(scope="module")

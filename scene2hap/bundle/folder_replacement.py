@@ -75,7 +75,11 @@ def require_replaceable(target: Path) -> None:
 
 
 def save_stamp(target: Path) -> Stamp | None:
-    """Return a stamp that changes whenever a bundle is saved at the target; None if there is no bundle."""
+    """Return a stamp that changes whenever a bundle is saved at the target; None if there is no bundle.
+
+    Raises, warns: as `recover`, which completes an interrupted save first.
+    """
+    recover(target)
     return file_stamp(target / MANIFEST)
 
 

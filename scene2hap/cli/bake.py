@@ -66,14 +66,21 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     config = BakeConfig.parse(bake_settings(arguments))
     if arguments.dry_run:
         return _dry_run(arguments, config, console)
+    accounts: list[InferenceReport] = []
     while True:
         try:
-            return _bake_once(arguments, config, console)
-        except BundleChanged:
-            continue  # Another process has edited the bundle in the meantime. The cache has the answers.
+            return _bake_once(arguments, config, console, accounts)
+        except BundleChanged:  # by another process; the cache has the answers of a model
+            console.say(f"{arguments.output} was edited in the meantime; baking again, with the edit")
 
 
-def _bake_once(arguments: argparse.Namespace, config: BakeConfig, console: Console) -> dict[str, Any]:
+def _bake_once(
+    arguments: argparse.Namespace, config: BakeConfig, console: Console, accounts: list[InferenceReport]
+) -> dict[str, Any]:
+    """Bake and save. `accounts` has the reports of the runs before, and gets that of this one.
+
+    Raises: BundleChanged: the bundle was saved by another process in the meantime; and as `bake`.
+    """
     target = Path(arguments.output)
     read = save_stamp(target)
     overrides = read_overrides(target)
@@ -81,7 +88,6 @@ def _bake_once(arguments: argparse.Namespace, config: BakeConfig, console: Conso
     before, unreadable = readable_bundle(target)
     if read is not None:
         require_steps(target)
-    accounts: list[InferenceReport] = []
     with console.progress() as tell:
         tell("reading", arguments.scene, 0, 1)
         scene = read_scene(arguments)
@@ -97,17 +103,20 @@ def _bake_once(arguments: argparse.Namespace, config: BakeConfig, console: Conso
         )
     kept = read is not None and (before is None or differ(before, bundle))
     folder = write_edited(bundle, target, before, read) if kept else write_bundle(bundle, target, read)
+    account = accounts.pop()
+    for earlier in accounts:
+        account.add_answers_of(earlier)
     try:
-        write_account(folder, {**accounts[0].as_json(), "cost_usd": accounts[0].cost_usd(price_list(config.prices))})
+        write_account(folder, {**account.as_json(), "cost_usd": account.cost_usd(price_list(config.prices))})
     except BundleError as problem:  # the bundle is whole without its account
         console.warn(str(problem))
     show_bundle(console, bundle)
-    show_report(console, accounts[0], config.prices)
+    show_report(console, account, config.prices)
     console.say(f"wrote {folder}")
     if kept:
         restored = unreadable if before is None else f"`scene2hap edit {folder} undo` restores it"
         console.say(f"the bundle before is in {step_beside(folder, 'before')}; {restored}")
-    return {"bundle": str(folder), **bundle_outcome(bundle), "inference": accounts[0].as_json()}
+    return {"bundle": str(folder), **bundle_outcome(bundle), "inference": account.as_json()}
 
 
 def bake_settings(arguments: argparse.Namespace) -> dict[str, Any]:

@@ -1,6 +1,6 @@
 """Analysis of a signal: amplitude, frequency and transients over time.
 
-Amplitude is the magnitude of the analytic signal (Hilbert transform; Oppenheim and Schafer, Discrete-Time Floats
+Amplitude is the magnitude of the analytic signal (Hilbert transform; Oppenheim and Schafer, Discrete-Time Signal
 Processing, ch. 12), with its power smoothed over `SMOOTHED_S`: that of a sine wave of equal power. Frequency is a ridge
 of the short-time spectrum (`ridge`). Transients are pulses that exceed the surrounding amplitude by `PROMINENCE_DB` and
 end within `LONGEST_PULSE_S`. A train of pulses closer than `APART_S` is roughness, and stays in the amplitude.

@@ -15,7 +15,8 @@ FAMILIES = ("scene_files", "servers", "names")
 
 
 def test_a_slice_of_the_attack_table() -> None:
-    command = [sys.executable, str(ATTACK), "--families", *FAMILIES, "--cases", "4", "--seed", "1"]
+    # The first cases of this seed are of most kinds.
+    command = [sys.executable, str(ATTACK), "--families", *FAMILIES, "--cases", "4", "--seed", "302"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=240)
     assert done.returncode == 0, done.stdout + done.stderr
     for family in FAMILIES:

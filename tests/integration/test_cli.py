@@ -1,6 +1,7 @@
 """The command line: demo, bake, render, inspect, and error messages."""
 
 import json
+import shutil
 import subprocess
 import sys
 from dataclasses import replace
@@ -119,10 +120,13 @@ def test_your_own_sounds_come_first(room: Path, tmp_path: Path) -> None:
     assert loops["refrigerator"]["on"]["credit"]["author"] == "scene2hap synthesizer"
 
 
-def test_an_edit_while_a_bake_runs_is_kept(room: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_edit_while_a_bake_runs_is_kept(
+    room: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     """A bake with a model takes minutes, and a designer has a second terminal."""
     folder = tmp_path / "b"
     assert main(["bake", str(room), "-o", str(folder), "-q"]) == 0
+    calls = json.loads(Path(f"{folder}.account.json").read_text())["calls"]
     baked = []
 
     def bake_and_be_overtaken(*given: object, **settings: object) -> HapticBundle:
@@ -132,9 +136,25 @@ def test_an_edit_while_a_bake_runs_is_kept(room: Path, tmp_path: Path, monkeypat
         return baked[-1]
 
     monkeypatch.setattr("scene2hap.cli.bake.bake", bake_and_be_overtaken)
-    assert main(["bake", str(room), "-o", str(folder), "-q"]) == 0
+    assert main(["bake", str(room), "-o", str(folder)]) == 0
+    assert "was edited in the meantime; baking again, with the edit" in " ".join(capsys.readouterr().out.split())
     assert HapticBundle.load(folder).gain_db("microwave") == -6.0
     assert len(baked) == 2
+    both = json.loads(Path(f"{folder}.account.json").read_text())["calls"]
+    assert both == {component: 2 * n for component, n in calls.items()}
+
+
+def test_a_bake_after_an_interrupted_save_keeps_the_bundle_before(tmp_path: Path) -> None:
+    """The save died between two renames, on a system that cannot swap folders: both bundles are beside the target."""
+    table = SceneObject("table", geometry=Box((1.6, 0.74, 0.9)))
+    path, folder = tmp_path / "room.json", tmp_path / "b"
+    path.write_text(SceneSnapshot.build([table]).to_json())
+    assert main(["bake", str(path), "-o", str(folder), "-q"]) == 0
+    shutil.copytree(folder, tmp_path / ".b.scene2hap-0123abcd-1.old")
+    folder.rename(tmp_path / ".b.scene2hap-0123abcd-1.new")
+    path.write_text(SceneSnapshot.build([table, SceneObject("chair", geometry=Box((0.4, 0.9, 0.4)))]).to_json())
+    assert main(["bake", str(path), "-o", str(folder), "-q"]) == 0
+    assert [*HapticBundle.load(f"{folder}.before").objects] == ["table"]
 
 
 def test_only_a_bake_that_changes_something_keeps_the_bundle_before(tmp_path: Path) -> None:

@@ -91,7 +91,7 @@ def stepped(item: SceneObject, step: tuple[float, float, float, float]) -> Scene
 
 
 @given(PATHS)
-@settings(max_examples=100)
+@settings(max_examples=350)
 def test_incremental_updates_of_a_slide_equal_a_new_graph(
     scene_and_path: tuple[list[SceneObject], list[dict[str, tuple[float, float, float, float]]]],
 ) -> None:

@@ -12,6 +12,7 @@ from scene2hap.haptics import VibrationDescription
 
 RATE_HZ = 8000
 DURATION_S = 2.6  # a bake asks for more than 2.5
+SYNTHESIZED = Synthesizer.find
 
 
 def find(self: Synthesizer, description: VibrationDescription) -> list[AudioClip]:

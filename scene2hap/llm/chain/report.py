@@ -50,6 +50,14 @@ class InferenceReport:
         else:
             self.unmetered += 1
 
+    def add_answers_of(self, earlier: InferenceReport) -> None:
+        """Add the calls and the answers of an earlier run over the same scene, which were paid for too."""
+        self.calls.update(earlier.calls)
+        self.kept += earlier.kept
+        self.unmetered += earlier.unmetered
+        for billed_as, used in earlier.billed.items():
+            self.billed.setdefault(billed_as, Counter()).update(used)
+
     @property
     def tokens(self) -> dict[str, Counter[str]]:
         """Tokens of answers billed in this run, by model and kind of token."""

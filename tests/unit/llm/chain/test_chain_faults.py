@@ -23,6 +23,7 @@ from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, Repl
 from scene2hap.llm.answers.usable import UnusableAnswer
 from scene2hap.llm.chain import infer_scene
 from scene2hap.llm.chain.questions import MOST_UNANSWERED
+from scene2hap.llm.chain.report import InferenceReport
 from scenes import box, scene
 from scripted_backend import SCENE, Scripted, run
 
@@ -84,6 +85,22 @@ def test_an_unusable_answer_that_was_billed_is_in_the_account() -> None:
         return answer
 
     assert run(Scripted(object_analyzer=change)).report.tokens == {"m": {"prompt_tokens": 9}}
+
+
+def test_the_account_of_two_runs_has_the_answers_of_both() -> None:
+    runs = []
+    for cup_tokens, is_kept in ((9, False), (5, True)):
+        report = InferenceReport()
+        report.calls["object_analyzer"] += 2
+        report.take(LLMReply("{}", "m", usage={"prompt_tokens": cup_tokens}))
+        report.take(LLMReply("{}", "m", usage={"prompt_tokens": 100}, is_kept=is_kept))
+        report.take(LLMReply("{}", "m"))
+        runs.append(report)
+    first, last = runs
+    last.add_answers_of(first)
+    assert (last.calls["object_analyzer"], last.kept, last.unmetered) == (4, 1, 2)
+    assert last.tokens == {"m": {"prompt_tokens": 9 + 100 + 5}}
+    assert first.tokens == {"m": {"prompt_tokens": 9 + 100}}
 
 
 def test_failing_describer_keeps_the_state() -> None:
