@@ -141,6 +141,12 @@ class TriMesh:
         """The largest absolute coordinate [m], of the vertices that faces use."""
         return float(np.abs(self.bounds_m).max())
 
+    @cached_property
+    def volume_m3(self) -> float:
+        """The volume [m3] if the mesh is closed and its faces face outwards; else a number of any sign."""
+        a, b, c = (self.vertices_m - self.bounds_m.mean(axis=0))[self.faces].transpose(1, 0, 2)
+        return float(np.vdot(a, np.cross(b, c))) / 6
+
 
 Geometry = Box | TriMesh
 

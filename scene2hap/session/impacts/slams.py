@@ -109,10 +109,7 @@ def may_enclose(holder: SceneObject, item: SceneObject, poses: tuple[Pose, Pose]
 def is_filled(holder: SceneObject) -> bool:
     """Return True if an object fills more than half of its box, as a solid cabinet; a crate or a room does not."""
     mesh = holder.geometry.mesh
-    low, high = mesh.bounds_m
-    a, b, c = (mesh.vertices_m - (low + high) / 2)[mesh.faces].transpose(1, 0, 2)
-    volume_m3 = np.vdot(a, np.cross(b, c)) / 6
-    return bool(volume_m3 > (high - low).prod() / 2)
+    return mesh.volume_m3 > float(np.ptp(mesh.bounds_m, axis=0).prod()) / 2
 
 
 def is_closed(item: SceneObject, holder: SceneObject, way: RelativePoses, now: tuple[Pose, Pose], up_axis: int) -> bool:
