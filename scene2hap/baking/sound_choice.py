@@ -21,10 +21,7 @@ from scene2hap.audio.recorded_runs import recorded_runs
 from scene2hap.audio.select import Choice, explain_choice
 from scene2hap.audio.sources.chain import gather
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.fingerprint import (
-    OWN_CLIP,
-    request_digests,
-)
+from scene2hap.baking.fingerprint import OWN_CLIP, request_digests
 from scene2hap.baking.own_words import own_word
 from scene2hap.baking.recorded_times import NO_RUNS, Runs, runs_of, shown_runs
 from scene2hap.bundle import Override

@@ -106,9 +106,8 @@ def _misread(scene: SceneData, boxes: Floats, up: int, resting: float) -> Findin
             "the sizes are probably half sizes, as physics engines have them. Double them: a Box has whole sizes",
         )
     ]
-    if (
-        floor_of(boxes, up) is not None
-    ):  # Without a floor, middles at one height are as likely: a shaft with its wheels.
+    # Without a floor, middles at one height are as likely: a shaft with its wheels.
+    if floor_of(boxes, up) is not None:
         readings.append(
             (
                 "bottoms",
